@@ -9,7 +9,7 @@
 
 #include "common/scene/pack/scene_codec.h"
 #include "coordinator/render/passes_alone.h"
-#include "worker/integrators/registry.h"
+#include "worker/registry.h"
 #include "worker/tools/describe_sample.h"
 
 namespace treefarm {

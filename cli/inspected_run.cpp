@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "common/base/files/read_bytes.h"
 #include "common/base/hash.h"
 #include "common/base/refuse.h"
 #include "common/config/job_reader.h"
-#include "common/image/read_bytes.h"
-#include "common/plan/schedule_file.h"
+#include "common/plan/schedule/schedule_file.h"
 #include "common/scene/pack/scene_codec.h"
 #include "coordinator/render/stored_model.h"
 

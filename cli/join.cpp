@@ -17,18 +17,18 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "cli/interrupt.h"
 #include "cli/on_farm.h"
 #include "cli/option_values.h"
 #include "cli/this_build.h"
 #include "common/base/error.h"
 #include "common/base/host.h"
+#include "common/base/interrupt.h"
 #include "common/base/refuse.h"
 #include "common/base/timer.h"
 #include "common/comm/join_ticket.h"
 #include "common/comm/tcp_channel.h"
-#include "worker/integrators/registry.h"
 #include "worker/local_worker.h"
+#include "worker/registry.h"
 
 namespace treefarm {
 

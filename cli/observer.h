@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "cli/on_farm.h"
-#include "coordinator/launch/sign_of_life.h"
 #include "coordinator/render/render_series.h"
+#include "coordinator/run/sign_of_life.h"
 
 namespace treefarm {
 

@@ -7,17 +7,17 @@
 #include <exception>
 #include <optional>
 
-#include "cli/interrupt.h"
 #include "cli/option_values.h"
 #include "cli/this_build.h"
 #include "common/base/error.h"
 #include "common/base/host.h"
+#include "common/base/interrupt.h"
 #include "common/comm/mpi_channel.h"
 #include "common/comm/multi_channel.h"
 #include "common/comm/run_key.h"
-#include "coordinator/pulse.h"
-#include "worker/integrators/registry.h"
+#include "coordinator/farm/pulse.h"
 #include "worker/local_worker.h"
+#include "worker/registry.h"
 
 namespace treefarm {
 

@@ -7,14 +7,14 @@
 #include <iostream>
 #include <memory>
 
-#include "cli/interrupt.h"
 #include "cli/option_values.h"
 #include "cli/plan_answer.h"
 #include "cli/render.h"
 #include "common/base/host.h"
-#include "common/plan/estimator_advice.h"
-#include "common/plan/plan_text.h"
-#include "common/scene/lint/lint.h"
+#include "common/base/interrupt.h"
+#include "common/plan/effects/plan_text.h"
+#include "coordinator/input/lint/estimator_advice.h"
+#include "coordinator/input/lint/lint.h"
 
 namespace treefarm {
 

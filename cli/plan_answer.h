@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "common/plan/expectation.h"
+#include "common/plan/forecast/expectation.h"
 #include "coordinator/render/probe.h"
 
 namespace treefarm {

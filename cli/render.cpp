@@ -9,10 +9,10 @@
 #include "cli/observer.h"
 #include "cli/option_values.h"
 #include "cli/render_shot.h"
-#include "common/base/reading_notice.h"
-#include "coordinator/folder_content.h"
 #include "coordinator/render/render_series.h"
 #include "coordinator/render/resume.h"
+#include "coordinator/run/folder_content.h"
+#include "coordinator/words/reading_notice.h"
 
 namespace treefarm {
 

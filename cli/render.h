@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/launch.h"
+#include "cli/launch_environment.h"
 #include "cli/on_farm.h"
 #include "coordinator/render/read_request.h"
 #include "coordinator/render/render.h"

@@ -4,9 +4,9 @@
 
 #include "cli/render.h"
 #include "cli/this_build.h"
+#include "common/base/text/parse_text.h"
 #include "common/config/job_keys.h"
 #include "common/config/job_reader.h"
-#include "common/config/parse_text.h"
 #include "coordinator/display/display_server.h"
 
 namespace treefarm {

@@ -7,9 +7,9 @@
 #include "cli/observer.h"
 #include "cli/render.h"
 #include "common/base/refuse.h"
-#include "common/config/frames.h"
 #include "common/config/job_reader.h"
 #include "coordinator/shot/frame_record.h"
+#include "coordinator/shot/frames.h"
 #include "coordinator/shot/shot_run.h"
 
 namespace treefarm {

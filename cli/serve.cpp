@@ -8,9 +8,9 @@
 #include <memory>
 #include <thread>
 
-#include "cli/interrupt.h"
 #include "cli/option_values.h"
 #include "common/base/host.h"
+#include "common/base/interrupt.h"
 #include "common/base/refuse.h"
 #include "serve/site.h"
 #include "serve/token.h"

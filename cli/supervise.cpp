@@ -5,10 +5,11 @@
 #include <iostream>
 #include <memory>
 
-#include "cli/launch_run.h"
 #include "cli/option_values.h"
-#include "cli/sweep.h"
+#include "cli/read_launched_command.h"
 #include "common/base/error.h"
+#include "coordinator/launch/launch_run.h"
+#include "coordinator/launch/sweep.h"
 
 namespace treefarm {
 
@@ -18,7 +19,7 @@ int launch_or_sweep(const LaunchOptions& options, const LaunchEnvironment& launc
     if (launch.under_mpi)
         throw InputError(Location{"launch", 0, 0}, "was itself started by mpirun or srun, which it would start",
                          "leave them away: treefarm launch -n 3 -- render scene.xml");
-    if (!options.sweep) return run_launch(options);
+    if (!options.sweep) return run_launch(options, read_launched_command(options.command));
     if (!options.command.empty())
         throw InputError(Location{"--sweep", 0, 0}, "launches nothing", "leave the command away");
     std::cout << sweep() << " left by dead processes removed\n";

@@ -4,7 +4,7 @@
 #include <exception>
 
 #include "common/base/host.h"
-#include "worker/integrators/registry.h"
+#include "worker/registry.h"
 
 namespace treefarm {
 

@@ -8,7 +8,7 @@
 namespace treefarm {
 
 /// How many paths draw together: a multiple of every vector register's lanes. The more, the rarer are steps in which
-/// few are left; with more than these large trees were slower (bench/log/2026-11-25-paths.md).
+/// few are left; with more than these large trees were slower (bench/log/speed.md, "what made paths faster").
 inline constexpr std::uint32_t kDrawBatch = 128;
 
 /// Which paths draw, and at which of their vertices.

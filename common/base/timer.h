@@ -5,7 +5,7 @@
 
 namespace treefarm {
 
-/// Wall-clock seconds since construction or the last restart. Clocks live outside the pure rooms.
+/// Wall-clock seconds since construction or the last restart. Clocks live outside the pure modules.
 class Timer {
   public:
     double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }

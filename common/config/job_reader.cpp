@@ -8,9 +8,9 @@
 #include <sstream>
 #include <string_view>
 
+#include "common/base/text/parse_text.h"
 #include "common/config/estimators.h"
 #include "common/config/job_keys.h"
-#include "common/config/parse_text.h"
 #include "common/config/presets.h"
 #include "common/config/toml_kind.h"
 #include "common/config/toml_settings.h"
@@ -48,7 +48,7 @@ std::string toml_key(const std::string& key) {
     return !key.empty() && key.find_first_not_of(bare) == std::string::npos ? key : toml_string(key);
 }
 
-/// Sections that only a resolved.toml has: values by names that this room does not know. What they may be, others know.
+/// Sections that only a resolved.toml has: values by names that only other modules know.
 void read_record(const toml::table& section, const std::string& prefix, const std::string& file,
                  std::vector<Setting>& settings) {
     for (const auto& [key, node] : section) {

@@ -6,20 +6,13 @@
 #include <limits>
 
 #include "common/base/error.h"
-#include "common/image/atomic_file.h"
-#include "common/image/encoded_image.h"
-#include "common/image/jpeg_decode.h"
-#include "common/image/png_decode.h"
+#include "common/base/files/atomic_file.h"
 #include "common/image/png_encode.h"
 #include "common/image/srgb.h"
 
 namespace treefarm {
 
 namespace {
-
-[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& what, const std::string& cure) {
-    throw InputError(Location{path.string()}, what, cure);
-}
 
 /// Linear values in [0, 1] to 8-bit sRGB without a power per value. `first` tells for each of so many equal steps the
 /// byte of its lower end; `begin` where each byte begins.
@@ -67,35 +60,6 @@ std::vector<std::uint8_t> encode_png(const RgbImage& image, float exposure) {
 
 void write_png(const std::filesystem::path& path, const RgbImage& image, float exposure) {
     write_file_atomically(path, encode_png(image, exposure));
-}
-
-Image read_ldr(const std::filesystem::path& path, Encoding encoding) {
-    const EncodedImage file = read_encoded_image(path, "give a PNG or JPEG file");
-    if (file.format != ImageFormat::png && file.format != ImageFormat::jpeg)
-        refuse(path, "is neither PNG nor JPEG", "convert it to PNG");
-    std::string why;
-    const auto decoded = file.format == ImageFormat::png ? decode_png(file.bytes, why) : decode_jpeg(file.bytes, why);
-    if (!decoded) refuse(path, "cannot be decoded (" + why + ")", "it is damaged or cut short; save it again");
-
-    const auto channels = static_cast<std::size_t>(decoded->channels);
-    const bool grey = channels < 3, alpha = channels % 2 == 0;
-    Image image{decoded->width,
-                decoded->height,
-                grey ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"},
-                {}};
-    if (alpha) image.channel_names.emplace_back("A");
-    image.data.resize(image.channel_names.size() * image.pixel_count());
-    for (std::size_t c = 0; c < channels; ++c) {
-        const bool decode = encoding == Encoding::srgb && !(alpha && c == channels - 1);
-        const auto values = image.channel(c);
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            const std::size_t at = i * channels + c;
-            const float value =
-                decoded->floats.empty() ? static_cast<float>(decoded->bytes[at]) / 255.0f : decoded->floats[at];
-            values[i] = decode ? srgb_decode(value) : value;
-        }
-    }
-    return image;
 }
 
 }  // namespace treefarm

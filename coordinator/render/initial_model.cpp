@@ -7,8 +7,8 @@
 #include "common/base/refuse.h"
 #include "common/config/job_keys.h"
 #include "common/config/job_reader.h"
-#include "common/plan/resolved_file.h"
-#include "common/plan/schedule_file.h"
+#include "common/plan/resolve/resolved_file.h"
+#include "common/plan/schedule/schedule_file.h"
 #include "coordinator/render/stored_model.h"
 
 namespace treefarm {

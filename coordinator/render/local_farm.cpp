@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "common/comm/in_process_channel.h"
-#include "coordinator/farm.h"
+#include "coordinator/farm/farm.h"
 
 namespace treefarm {
 

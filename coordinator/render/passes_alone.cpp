@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/plan/kernel.h"
+#include "common/plan/schedule/kernel.h"
 #include "common/scene/pack/scene_codec.h"
 
 namespace treefarm {

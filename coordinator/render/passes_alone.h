@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "coordinator/pass_loop.h"
+#include "coordinator/passes/pass_loop.h"
 #include "coordinator/render/render_request.h"
 
 namespace treefarm {

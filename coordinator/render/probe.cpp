@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/plan/learning.h"
+#include "common/plan/schedule/learning.h"
 #include "coordinator/render/passes_alone.h"
 
 namespace treefarm {

@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "common/base/hash.h"
+#include "common/base/text/parse_text.h"
 #include "common/config/check_job.h"
 #include "common/config/job_keys.h"
 #include "common/config/job_reader.h"
-#include "common/config/parse_text.h"
-#include "common/plan/resolved_file.h"
-#include "common/plan/schedule_file.h"
+#include "common/plan/resolve/resolved_file.h"
+#include "common/plan/schedule/schedule_file.h"
 #include "common/scene/pack/scene_codec.h"
 #include "coordinator/render/initial_model.h"
 #include "coordinator/render/input_kind.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "common/scene/readers/load.h"
+#include "coordinator/input/load.h"
 #include "coordinator/render/render_request.h"
 
 namespace treefarm {

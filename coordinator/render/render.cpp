@@ -4,13 +4,13 @@
 #include <optional>
 #include <utility>
 
-#include "common/plan/learning.h"
+#include "common/plan/schedule/learning.h"
 #include "common/scene/pack/scene_codec.h"
 #include "coordinator/display/live_display.h"
-#include "coordinator/guest_door.h"
-#include "coordinator/memory_check.h"
+#include "coordinator/farm/guest_door.h"
+#include "coordinator/farm/memory_check.h"
 #include "coordinator/render/render_log.h"
-#include "coordinator/run_directory.h"
+#include "coordinator/run/run_directory.h"
 
 namespace treefarm {
 

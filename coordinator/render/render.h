@@ -6,7 +6,7 @@
 
 #include "coordinator/render/render_observer.h"
 #include "coordinator/render/render_request.h"
-#include "coordinator/run_report.h"
+#include "coordinator/run/run_report.h"
 
 namespace treefarm {
 

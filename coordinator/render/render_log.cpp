@@ -8,12 +8,12 @@
 #include <utility>
 
 #include "common/base/hash.h"
-#include "common/config/parse_text.h"
-#include "common/plan/plan_text.h"
-#include "common/scene/lint/lint.h"
-#include "coordinator/decision_text.h"
-#include "coordinator/pass_text.h"
-#include "coordinator/tail_report.h"
+#include "common/base/text/parse_text.h"
+#include "common/plan/effects/plan_text.h"
+#include "coordinator/input/lint/lint.h"
+#include "coordinator/words/decision_text.h"
+#include "coordinator/words/pass_text.h"
+#include "coordinator/words/tail_report.h"
 
 namespace treefarm {
 

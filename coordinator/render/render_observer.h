@@ -5,8 +5,8 @@
 #include <string>
 
 #include "common/base/log.h"
-#include "coordinator/launch/life_status.h"
-#include "coordinator/pass_loop.h"
+#include "coordinator/passes/pass_loop.h"
+#include "coordinator/run/life_status.h"
 
 namespace treefarm {
 

@@ -9,13 +9,13 @@
 
 #include "common/config/job.h"
 #include "common/guiding/any_guide.h"
-#include "common/plan/budget.h"
-#include "common/plan/effects.h"
+#include "common/plan/effects/effects.h"
+#include "common/plan/forecast/budget.h"
 #include "common/protocol/fingerprint.h"
 #include "common/scene/model/scene.h"
-#include "coordinator/checkpoint/run_checkpoints.h"
-#include "coordinator/farm.h"
+#include "coordinator/farm/farm.h"
 #include "coordinator/render/local_farm.h"
+#include "coordinator/run/run_checkpoints.h"
 
 namespace treefarm {
 

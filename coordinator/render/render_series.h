@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <set>
 
-#include "coordinator/progress.h"
 #include "coordinator/render/render.h"
+#include "coordinator/words/progress.h"
 
 namespace treefarm {
 

@@ -6,12 +6,12 @@
 
 #include "common/base/hash.h"
 #include "common/base/refuse.h"
+#include "common/base/text/parse_text.h"
 #include "common/config/job_keys.h"
-#include "common/config/parse_text.h"
-#include "common/plan/resolved_file.h"
+#include "common/plan/resolve/resolved_file.h"
 #include "common/scene/pack/scene_codec.h"
 #include "coordinator/render/finished_render.h"
-#include "coordinator/run_folder.h"
+#include "coordinator/run/run_folder.h"
 
 namespace treefarm {
 

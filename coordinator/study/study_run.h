@@ -3,8 +3,8 @@
 
 #include <ostream>
 
-#include "common/config/study.h"
 #include "coordinator/render/render_series.h"
+#include "coordinator/study/study.h"
 
 namespace treefarm {
 

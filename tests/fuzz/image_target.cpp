@@ -5,9 +5,9 @@
 
 #include "common/base/error.h"
 #include "common/image/exr.h"
-#include "common/image/png.h"
-#include "common/image/stored_image.h"
+#include "coordinator/input/images/stored_image.h"
 #include "tests/fuzz/memory_file.h"
+#include "tests/support/read_ldr.h"
 
 namespace treefarm::fuzz {
 

@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "common/image/exr.h"
-#include "common/image/png.h"
 #include "tests/mpi/program.h"
+#include "tests/support/read_ldr.h"
 #include "tests/support/support.h"
 
 namespace treefarm::test {

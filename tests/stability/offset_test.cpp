@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Rays that leave a surface, beside other geometry and in any place and size.
 #include <gtest/gtest.h>
 
 #include <random>

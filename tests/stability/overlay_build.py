@@ -45,7 +45,7 @@ class Build:
         if units is None:
             # Units of the inspecting commands include the same headers, but trace nothing in a render.
             units = {unit for unit in self.units_of({edit["file"] for edit in edits})
-                     if unit.startswith(("worker/", "common/")) and not pathlib.Path(unit).name.startswith(IDLE)}
+                     if unit.startswith(("worker/", "common/", "coordinator/input/")) and not pathlib.Path(unit).name.startswith(IDLE)}
         objects = []
         for unit in sorted(units):
             objects.append(overlay / (unit.replace("/", "_") + ".o"))

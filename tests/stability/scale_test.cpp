@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+// Whole renders of scenes in any size and far from the origin.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 
-#include "common/scene/readers/load.h"
+#include "coordinator/input/load.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/material_scenes.h"
 #include "tests/support/resolved.h"

@@ -1,13 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes docs/generated/hard-cases.md from the descriptions above the tests of tests/stability, and what they measure.
+"""Writes docs/generated/hard-cases.md and its tables hard-cases.csv and oracles.csv from the descriptions above the tests of
+tests/stability, and what they measure.
 
 usage: tests/stability/write_page.py [BUILD]     runs the tests and the oracles of BUILD (default build/release)
-       tests/stability/write_page.py --check     fails unless the page says what the descriptions say; runs nothing
+       tests/stability/write_page.py --keep      keeps what the tables say was measured; runs nothing
+       tests/stability/write_page.py --check     fails unless page and tables say what the descriptions say; runs nothing
 
 A description is the comment above a test: "/// ROWS | TITLE", then Others:, Here: and Holds:. ROWS are those of the
 list of cases that broke renderers, or "ours".
 """
+import csv
+import io
 import json
 import pathlib
 import re
@@ -18,29 +22,33 @@ import tempfile
 from overlay_build import write_edits
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGE = ROOT / "docs/generated/hard-cases.md"
+FOLDER = ROOT / "docs/generated"
 ROWS = range(1, 44)
 WITHOUT_TEST = {
     20: "participating media, which are not simulated (nor is row 21's equiangular sampling, which is of media)",
 }
+COLUMNS = ["rows", "title", "others", "here", "holds", "measured", "guarded by", "test"]
+ORACLE_COLUMNS = ["function", "inputs", "error", "worst", "bound", "worst input"]
 HEAD = """# Hard cases
 
-What broke other renderers, what holds here, and the test that says so. This page is written by
-`tests/stability/write_page.py` from the tests' own descriptions and what they measure; a unit test holds it against
-them. Numbers before a title are rows of our list of failures seen in public renderers; "ours" are cases of our own
-design. Issues and commits are named as their projects name them; no code is taken from them.
+Cases that broke other renderers, and what is done here. This page and its tables are written by
+`tests/stability/write_page.py` from the tests' own descriptions and what they measure; a unit test holds them against
+the descriptions. Numbers are rows of our list of failures seen in public renderers; "ours" are cases of our own design.
 
     ctest --preset release -L stability       the suite
     tests/stability/without_guards.py         every test with a guard removed: it must fail
 
-"Guarded by" names the files in which removing a line, or changing a constant, makes the test fail
-(`tests/stability/guards.json`). Where it is missing, no single line guards: the case holds by construction.
+[hard-cases.csv](hard-cases.csv) has a row for each case: what happened elsewhere (issues and commits as their projects
+name them; no code is taken from them), what is done here, what the test asserts, the figure it measured, the test's
+name, and the files in which removing a line, or changing a constant, makes the test fail
+(`tests/stability/guards.json`). Where no file is named, no single line guards: the case holds by construction.
 """
 ORACLES = """## Against 113-bit arithmetic
 
 Our functions against their definitions evaluated in quadruple precision for exactly the same floats, random and
 adversarial ones (`tests/oracle`; `build/release/tests/oracle_table [INPUTS]` prints the table). `Oracles.KeepTheirBounds`
-holds the bounds with fewer inputs. Errors are in the unit that the column names.
+holds the bounds with fewer inputs. Errors are in the unit that the column names. Numbers of inputs, and the worst one:
+[oracles.csv](oracles.csv).
 
 """
 
@@ -49,11 +57,20 @@ def wrapped(text):
     return " ".join(line.strip()[3:].strip() for line in text.strip().splitlines())
 
 
+def subject(text, path):
+    """The comment that begins a file."""
+    head = re.match(r"// SPDX[^\n]*\n// ([^\n]+)\.\n", text)
+    if not head:
+        sys.exit(f"{path} does not begin with what its cases are about")
+    return head[1]
+
+
 def descriptions():
     cases = []
     for path in sorted((ROOT / "tests/stability").glob("*_test.cpp")):
+        text = path.read_text()
         for comment, macro, suite, name in re.findall(
-            r"((?:^///[^\n]*\n)+)(TEST|TEST_F|TEST_P)\((\w+), (\w+)\)", path.read_text(), re.M
+            r"((?:^///[^\n]*\n)+)(TEST|TEST_F|TEST_P)\((\w+), (\w+)\)", text, re.M
         ):
             parts = re.split(r"\s*\b(Others|Here|Holds): ", wrapped(comment))
             head = re.fullmatch(r"([\d, ]+|ours) \| (.+)", parts[0])
@@ -61,7 +78,7 @@ def descriptions():
                 sys.exit(f"{path}: {suite}.{name} has no description of a case")
             rows = [] if head[1] == "ours" else [int(row) for row in head[1].split(",")]
             cases.append({"rows": rows, "title": head[2], "test": f"{suite}.{name}", "program": path.stem,
-                          **dict(zip(parts[1::2], parts[2::2]))})
+                          "subject": subject(text, path), **dict(zip(parts[1::2], parts[2::2]))})
     covered = {row for case in cases for row in case["rows"]}
     if missing := [row for row in ROWS if row not in covered and row not in WITHOUT_TEST]:
         sys.exit(f"no test for the rows {missing}")
@@ -87,45 +104,93 @@ def measured(build, cases):
     return figures
 
 
-def page(cases, figures, table):
-    text = HEAD
+def rows_of(case):
+    return ", ".join(map(str, case["rows"])) or "ours"
+
+
+def table(cases, figures):
+    """The rows of hard-cases.csv."""
+    rows = []
     for case in cases:
-        rows = ", ".join(map(str, case["rows"])) or "ours"
-        text += f"\n### {rows}: {case['title']}\n\n"
-        text += f"- Others: {case['Others']}\n- Here: {case['Here']}\n- Holds: {case['Holds']}\n"
-        if case["test"] in figures:
-            text += f"- Measured: {figures[case['test']]}.\n"
         files = sorted({edit["file"] for guard in guards() if guard["test"] == case["test"] for edit in guard["edits"]})
-        if files:
-            text += "- Guarded by: " + ", ".join(f"`{file}`" for file in files) + ".\n"
-        text += f"- Test: `{case['test']}`\n"
+        rows.append([rows_of(case), case["title"], case["Others"], case["Here"], case["Holds"],
+                     figures.get(case["test"], ""), " ".join(files), case["test"]])
+    return rows
+
+
+def oracles(markdown):
+    """The rows of oracles.csv, of what oracle_table prints."""
+    lines = [line for line in markdown.splitlines() if line.startswith("| ")]
+    return [[cell.strip().strip("`") for cell in line.split("|")[1:-1]] for line in lines[1:]]
+
+
+def page(cases, oracle_rows):
+    text = HEAD
+    for program in sorted({case["program"] for case in cases}):
+        own = [case for case in cases if case["program"] == program]
+        text += f"\n## {own[0]['subject']}\n\n| | case | here |\n|---|---|---|\n"
+        for case in own:
+            text += f"| {rows_of(case)} | {case['title']} | {case['Here']} |\n"
     text += "\n## Rows without a test\n\n"
     for row, why in WITHOUT_TEST.items():
         text += f"- {row}: {why}.\n"
-    return text + "\n" + ORACLES + table
+    text += "\n" + ORACLES + "| function | error | worst | bound |\n|---|---|---|---|\n"
+    for row in oracle_rows:
+        text += f"| {row[0]} | {row[2]} | {row[3]} | {row[4]} |\n"
+    return text
 
 
-def without_figures(text):
-    text = re.sub(r"^- Measured: .*\n", "", text, flags=re.M)
-    return "\n".join(line.split("|")[1] if line.startswith("| ") else line for line in text.splitlines())
+def write_csv(name, columns, rows):
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows([columns, *rows])
+    (FOLDER / name).write_text(text.getvalue())
+
+
+def read_csv(name, columns):
+    """The rows of a table; none where the file is absent or has other columns."""
+    if not (FOLDER / name).exists():
+        return []
+    with open(FOLDER / name, newline="") as file:
+        rows = list(csv.reader(file))
+    return rows[1:] if rows and rows[0] == columns else []
+
+
+def write(cases, figures, oracle_rows):
+    write_csv("hard-cases.csv", COLUMNS, table(cases, figures))
+    write_csv("oracles.csv", ORACLE_COLUMNS, oracle_rows)
+    (FOLDER / "hard-cases.md").write_text(page(cases, oracle_rows))
+
+
+def check(cases):
+    for guard in guards():
+        with tempfile.TemporaryDirectory() as overlay:
+            if stale := write_edits(guard["edits"], pathlib.Path(overlay)):
+                sys.exit(f"tests/stability/guards.json: {stale} has no such text as the guard of {guard['test']}")
+    without_figures = [[cell for name, cell in zip(COLUMNS, row) if name != "measured"]
+                       for row in read_csv("hard-cases.csv", COLUMNS)]
+    if without_figures != [[cell for name, cell in zip(COLUMNS, row) if name != "measured"] for row in table(cases, {})]:
+        sys.exit("docs/generated/hard-cases.csv is out of date: run tests/stability/write_page.py")
+    oracle_rows = read_csv("oracles.csv", ORACLE_COLUMNS)
+    if len(oracle_rows) < 20:
+        sys.exit("docs/generated/oracles.csv has no table of oracles: run tests/stability/write_page.py")
+    old = FOLDER / "hard-cases.md"
+    if not old.exists() or old.read_text() != page(cases, oracle_rows):
+        sys.exit("docs/generated/hard-cases.md is out of date: run tests/stability/write_page.py")
 
 
 def main():
     cases = descriptions()
     if sys.argv[1:] == ["--check"]:
-        for guard in guards():
-            with tempfile.TemporaryDirectory() as overlay:
-                if stale := write_edits(guard["edits"], pathlib.Path(overlay)):
-                    sys.exit(f"tests/stability/guards.json: {stale} has no such text as the guard of {guard['test']}")
-        old = PAGE.read_text() if PAGE.exists() else ""
-        if without_figures(old.split(ORACLES)[0]) != without_figures(page(cases, {}, "").split(ORACLES)[0]):
-            sys.exit("docs/generated/hard-cases.md is out of date: run tests/stability/write_page.py")
-        if old.count("\n| ") < 20:
-            sys.exit("docs/generated/hard-cases.md has no table of oracles: run tests/stability/write_page.py")
+        check(cases)
+        return
+    if sys.argv[1:] == ["--keep"]:
+        figures = {row[-1]: row[COLUMNS.index("measured")] for row in read_csv("hard-cases.csv", COLUMNS)}
+        write(cases, figures, read_csv("oracles.csv", ORACLE_COLUMNS))
         return
     build = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/release").resolve()
-    table = subprocess.run([build / "tests/oracle_table"], check=True, capture_output=True, text=True).stdout
-    PAGE.write_text(page(cases, measured(build, [c for c in cases]), table))
+    printed = subprocess.run([build / "tests/oracle_table"], check=True, capture_output=True, text=True).stdout
+    write(cases, measured(build, cases), oracles(printed))
 
 
-main()
+if __name__ == "__main__":
+    main()

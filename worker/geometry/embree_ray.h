@@ -9,7 +9,7 @@
 namespace treefarm {
 
 /// Writes four floats at once, as Embree will read them: a processor that finds what it reads in pieces among its last
-/// writes waits until they have reached the cache (bench/log/2026-11-25-paths.md).
+/// writes waits until they have reached the cache (bench/log/speed.md, "what made paths faster").
 inline void write_together(float* to, const Vec3& v, float fourth) {
     using Four [[gnu::vector_size(16)]] = float;
     const Four four = {v.x, v.y, v.z, fourth};

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "common/base/bytes.h"
+#include "common/guiding/statistics/record_units.h"
 #include "common/math/vec.h"
 
 namespace treefarm {
 
 /// How next event chooses an emitter in a region, in parts of kLightProbabilityOne, to which they sum: [0] among all
 /// of them, as where nothing is learned, [c + 1] among those of cluster c (worker/lights/light_tree.h).
-inline constexpr int kLightClusters = 15;
 inline constexpr std::uint16_t kLightProbabilityOne = 1 << 15;
 using LightProbabilities = std::array<std::uint16_t, kLightClusters + 1>;
 
@@ -69,9 +69,6 @@ inline constexpr int kMaxSpatialDepth = 60;  ///< 20 halvings of each axis: floa
 /// A cube around `bounds` as the region model's, of edge 1 where the bounds have no extent.
 void set_cube(RegionModel& model, const Box3& bounds);
 
-/// Records are counted in units of 2^e such that a record of average value is 2^15 to 2^16 units: fine enough that
-/// rounding adds nothing measurable, with a cap (2^40 units) 2^24 times the average.
-inline constexpr int kMeanRecordBits = 16;
 inline constexpr int kMostQuantumExponent = 200;  ///< no mean of floats asks for one so far from 0
 std::int16_t quantum_exponent_for(float mean_record);
 /// The exponent that suits what a pass recorded: `records` of them with the sum `total`, in units of 2^`exponent`;

@@ -10,7 +10,7 @@
 #include "common/base/bytes.h"
 #include "common/base/large_table.h"
 #include "common/base/prefetch.h"
-#include "common/guiding/regions/region_model.h"
+#include "common/guiding/statistics/record_units.h"
 #include "common/math/elementary.h"
 #include "common/math/next_event_sums.h"
 

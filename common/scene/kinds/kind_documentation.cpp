@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/scene/kinds/kind_documentation.h"
 
-#include "common/config/parse_text.h"
+#include "common/base/text/parse_text.h"
+#include "common/scene/kinds/emitters.h"
 #include "common/scene/kinds/kind_name.h"
-#include "common/scene/model/scene.h"
+#include "common/scene/kinds/materials.h"
+#include "common/scene/kinds/shapes.h"
+#include "common/scene/kinds/textures.h"
 
 namespace treefarm {
 namespace {

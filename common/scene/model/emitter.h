@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "common/base/error.h"
 #include "common/scene/kinds/emitters.h"
 
 namespace treefarm {

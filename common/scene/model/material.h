@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "common/base/error.h"
 #include "common/scene/kinds/materials.h"
-#include "common/scene/model/texture.h"
+#include "common/scene/kinds/traits/inputs.h"
 
 namespace treefarm {
 

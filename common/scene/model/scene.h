@@ -9,6 +9,7 @@
 #include "common/scene/model/emitter.h"
 #include "common/scene/model/material.h"
 #include "common/scene/model/shape.h"
+#include "common/scene/model/texture.h"
 
 namespace treefarm {
 

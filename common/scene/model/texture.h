@@ -2,9 +2,7 @@
 #pragma once
 
 #include "common/base/error.h"
-#include "common/math/vec.h"
 #include "common/scene/kinds/textures.h"
-#include "common/scene/model/texture_image.h"
 
 namespace treefarm {
 
@@ -12,29 +10,6 @@ struct Texture {
     TextureKind kind;
     std::string name;
     Location where;
-};
-
-/// A colour that is the same everywhere or looked up in a texture, and then multiplied by `value`.
-struct ColorInput {
-    Rgb value{0.0f};
-    std::int32_t texture = kNone;  ///< index in Scene::textures
-
-    ColorInput() = default;
-    ColorInput(const Rgb& constant, std::int32_t looked_up = kNone) : value(constant), texture(looked_up) {}
-    bool varies() const { return texture != kNone; }
-    bool operator==(const ColorInput&) const = default;
-};
-
-/// A number that is the same everywhere or looked up in a texture (its mean of channels), and then multiplied by
-/// `value`.
-struct FloatInput {
-    float value = 0;
-    std::int32_t texture = kNone;
-
-    FloatInput() = default;
-    FloatInput(float constant, std::int32_t looked_up = kNone) : value(constant), texture(looked_up) {}
-    bool varies() const { return texture != kNone; }
-    bool operator==(const FloatInput&) const = default;
 };
 
 }  // namespace treefarm

@@ -7,6 +7,7 @@
 #include "common/scene/kinds/fields.h"
 #include "common/scene/kinds/materials/roughness.h"
 #include "common/scene/kinds/shapes/mesh.h"
+#include "common/scene/kinds/traits/texture_traits.h"
 #include "common/scene/pack/packed_values.h"
 
 namespace treefarm::packed {

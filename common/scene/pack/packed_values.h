@@ -8,7 +8,7 @@
 
 #include "common/base/bytes.h"
 #include "common/math/vec.h"
-#include "common/scene/model/texture.h"
+#include "common/scene/kinds/traits/inputs.h"
 
 namespace treefarm::packed {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "common/plan/policy.h"
+#include "common/base/policy.h"
 #include "worker/integrators/path/scatter_sample.h"
 
 namespace treefarm {
@@ -56,7 +56,7 @@ class Candidates {
 
   private:
     /// Light from everywhere, of which the tree may have seen nothing: as much as an even tree would see. A fifth of it
-    /// was too little for rare light (bench/log/2026-11-25-candidates.md).
+    /// was too little for rare light (bench/log/guiding.md, "how much regard to light that the tree has not seen").
     static constexpr float kUnseen = 1.0f / (4.0f * kPi);
 
     std::uint32_t count_ = 0;

@@ -76,7 +76,7 @@ class PathKernel {
     static constexpr std::uint32_t kOtherWayVertices = 1u << 28;
 
     /// Whether a path that ends makes room for the next. Guided ones were slower so: there the next batch waits for the
-    /// last path (bench/log/2026-11-25-paths.md).
+    /// last path (bench/log/speed.md, "what made paths faster").
     static constexpr bool kRefills = !kGuided;
 
     /// How many walk together: guided ones without next event are slower by whole batches.

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "common/scene/kinds/lobes.h"
-#include "common/scene/model/texture.h"
+#include "common/scene/kinds/traits/inputs.h"
+#include "common/scene/kinds/traits/lobes.h"
 
 namespace treefarm {
 

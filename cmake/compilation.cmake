@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+# How every target is compiled, decided here alone (bench/log/build.md has what each measure saves):
+# - Headers of others that many files include are parsed once. Each file still includes what it uses:
+#   -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON builds without.
+# - Code that neither traces, learns nor sums is compiled at -O1, and so are tests: levels change no bit
+#   (-ffp-contract=off; tests/tools/same_images), and what is fast stays at -O3.
+# - Its files are compiled six at a time: our own headers are most of what is parsed, and their inline functions most of
+#   what is generated. -DTREEFARM_UNITY=OFF compiles each by itself, as editors and clang-tidy want it (preset tidy).
+option(TREEFARM_UNITY "compile files of modules that do not trace several at a time" ON)
+set(TREEFARM_UNITY_FILES 6)
+
+# Modules whose speed matters stay as they are. The others, and every test, are cold.
+set(TREEFARM_HOT base film guiding image metrics textures geometry shading lights camera trace_scene integrators worker)
+list(TRANSFORM TREEFARM_HOT PREPEND tf_)
+
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled.cpp CONTENT "// carries the precompiled headers\n")
+function(treefarm_precompiled NAME)
+    cmake_parse_arguments(PRECOMPILED "" "" "LINKS;HEADERS" ${ARGN})
+    add_library(${NAME} OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
+    target_link_libraries(${NAME} PRIVATE treefarm_flags spdlog::spdlog nlohmann_json::nlohmann_json Imath::Imath
+                          ${PRECOMPILED_LINKS})
+    target_precompile_headers(${NAME} PRIVATE ${PRECOMPILED_HEADERS}
+        <Imath/ImathBox.h> <Imath/ImathColor.h> <Imath/ImathMatrix.h> <Imath/ImathVec.h>
+        <nlohmann/json.hpp> <spdlog/fmt/fmt.h> <spdlog/spdlog.h>
+        <algorithm> <array> <chrono> <cmath> <filesystem> <fstream> <functional> <map> <memory> <mutex> <numeric>
+        <optional> <random> <set> <span> <sstream> <string> <thread> <variant> <vector>)
+endfunction()
+treefarm_precompiled(tf_precompiled)
+
+# treefarm_targets(OUT DIRECTORY): libraries and programs of a folder and those below it.
+function(treefarm_targets OUT DIRECTORY)
+    get_property(found DIRECTORY ${DIRECTORY} PROPERTY BUILDSYSTEM_TARGETS)
+    get_property(below DIRECTORY ${DIRECTORY} PROPERTY SUBDIRECTORIES)
+    foreach(folder IN LISTS below)
+        treefarm_targets(more ${folder})
+        list(APPEND found ${more})
+    endforeach()
+    set(${OUT} ${found} PARENT_SCOPE)
+endfunction()
+
+# Call once every target is there.
+function(treefarm_compile_all)
+    set(cold_level)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TYPE STREQUAL "Release")
+        set(cold_level -O1)
+    endif()
+    treefarm_targets(targets ${PROJECT_SOURCE_DIR})
+    foreach(target IN LISTS targets)
+        get_target_property(type ${target} TYPE)
+        get_target_property(folder ${target} SOURCE_DIR)
+        if(NOT type MATCHES "^(STATIC_LIBRARY|EXECUTABLE)$")
+            continue()
+        endif()
+        string(REPLACE "${PROJECT_SOURCE_DIR}/" "" folder "${folder}")
+        if(folder MATCHES "^tests")
+            target_precompile_headers(${target} REUSE_FROM tf_precompiled_tests)
+        else()
+            target_precompile_headers(${target} REUSE_FROM tf_precompiled)
+        endif()
+        if(NOT target IN_LIST TREEFARM_HOT AND NOT folder STREQUAL "bench")
+            target_compile_options(${target} PRIVATE ${cold_level})
+            set_target_properties(${target} PROPERTIES UNITY_BUILD ${TREEFARM_UNITY} UNITY_BUILD_BATCH_SIZE ${TREEFARM_UNITY_FILES})
+        endif()
+    endforeach()
+endfunction()

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "common/base/error.h"
+#include "common/config/setting.h"
+
+namespace treefarm {
+
+/// One constant of policy.h, explained.
+struct PolicyEntry {
+    const char* name;  ///< "guiding.giving_up"
+    double value;
+    bool single;           ///< a float: its shortest text is shorter than the double's
+    const char* meaning;   ///< with the unit
+    const char* evidence;  ///< where it comes from: a publication, a section of bench/log, or that it is a guess
+};
+
+/// The value, as resolved.toml and the docs have it.
+std::string value_text(const PolicyEntry& entry);
+
+/// Every constant of policy.h, in its order.
+std::span<const PolicyEntry> policy_table();
+
+/// The section [policy] of resolved.toml.
+std::string write_policy();
+
+/// What its constants begin with among settings: "policy.guiding.giving_up".
+inline constexpr char kPolicyPrefix[] = "policy.";
+
+/// What to do with a resolved.toml that this build cannot repeat.
+inline constexpr char kResolvedCure[] =
+    "render job.toml instead, which leaves it to the program, or use the build that wrote it";
+
+/// Throws InputError where the settings of a resolved.toml lack a constant, have one that this build has not, or give
+/// one another value. `file`: for what is missing.
+void check_policy(std::span<const Setting> settings, const Location& file);
+
+/// A Markdown table of all constants, for docs/.
+std::string policy_documentation();
+
+}  // namespace treefarm

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/image/png.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+
+#include "common/base/error.h"
+#include "common/image/srgb.h"
+#include "tests/support/read_ldr.h"
+
+namespace treefarm {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path fresh(const std::string& name) {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    const fs::path folder = fs::path(testing::TempDir()) / (std::string("png_") + test->name());
+    fs::create_directories(folder);
+    fs::remove(folder / name);
+    return folder / name;
+}
+
+std::string refusal(const fs::path& path) {
+    try {
+        read_ldr(path, Encoding::srgb);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Png, SrgbIsItsOwnInverse) {
+    for (int i = 0; i <= 255; ++i) {
+        const float encoded = static_cast<float>(i) / 255.0f;
+        EXPECT_NEAR(srgb_encode(srgb_decode(encoded)), encoded, 1e-6f);
+    }
+    EXPECT_NEAR(srgb_decode(0.5f), 0.21404114f, 1e-6f);  // ((0.5 + 0.055) / 1.055)^2.4
+}
+
+TEST(Png, EveryValueBecomesTheNearestByte) {
+    const fs::path path = fresh("ramp.png");
+    RgbImage image(500, 200);
+    const auto count = static_cast<float>(image.pixels.size());
+    for (std::size_t p = 0; p < image.pixels.size(); ++p) {
+        const float x = static_cast<float>(p) / count;
+        image.pixels[p] = Rgb(x, 0.01f * x, x * x);
+    }
+    write_png(path, image);
+    const Image read = read_ldr(path, Encoding::linear);
+    ASSERT_EQ(read.data.size(), 3 * image.pixels.size());
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t p = 0; p < image.pixels.size(); ++p)
+            ASSERT_NEAR(255 * read.channel(c)[p], 255 * srgb_encode(image.pixels[p][static_cast<int>(c)]), 0.501)
+                << "pixel " << p << ", channel " << c;
+}
+
+TEST(Png, WritesSrgbWithExposureAndReadsItBack) {
+    const fs::path path = fresh("a.png");
+    RgbImage image(3, 2);
+    image.pixels[0] =
+        Rgb(srgb_decode(10.0f / 255.0f), srgb_decode(128.0f / 255.0f), srgb_decode(200.0f / 255.0f)) * 0.5f;
+    image.pixels[1] = Rgb(std::numeric_limits<float>::quiet_NaN(), -1.0f, std::numeric_limits<float>::infinity());
+    image.pixels[5] = Rgb(0.25f);
+    write_png(path, image, 2.0f);
+    const Image encoded = read_ldr(path, Encoding::linear);
+    EXPECT_EQ(encoded.channel_names, (std::vector<std::string>{"R", "G", "B"}));
+    ASSERT_EQ(encoded.width, 3);
+    ASSERT_EQ(encoded.height, 2);
+    EXPECT_FLOAT_EQ(encoded.channel(0)[0], 10.0f / 255.0f);
+    EXPECT_FLOAT_EQ(encoded.channel(1)[0], 128.0f / 255.0f);
+    EXPECT_FLOAT_EQ(encoded.channel(2)[0], 200.0f / 255.0f);
+    EXPECT_EQ(encoded.channel(0)[1], 0.0f) << "NaN is black";
+    EXPECT_EQ(encoded.channel(1)[1], 0.0f) << "negative is black";
+    EXPECT_EQ(encoded.channel(2)[1], 1.0f) << "infinite is white";
+    EXPECT_FLOAT_EQ(encoded.channel(0)[5], 188.0f / 255.0f) << "0.25 x 2, encoded";
+    const Image linear = read_ldr(path, Encoding::srgb);
+    EXPECT_NEAR(linear.channel(0)[5], 0.5f, 0.003f);
+}
+
+TEST(Png, RefusesWhatIsNoImageAndNamesTheFile) {
+    const fs::path path = fresh("bad.png");
+    EXPECT_NE(refusal(path).find("bad.png: no such file"), std::string::npos);
+    std::ofstream(path) << "GIF89a and more text";
+    EXPECT_NE(refusal(path).find("bad.png: is neither PNG nor JPEG"), std::string::npos) << refusal(path);
+    std::ofstream(path, std::ios::trunc) << "";
+    EXPECT_NE(refusal(path).find("bad.png"), std::string::npos);
+}
+
+TEST(Png, RefusesTruncation) {
+    const fs::path path = fresh("a.png"), cut = fresh("cut.png");
+    write_png(path, RgbImage(40, 30, Rgb(0.3f)));
+    std::ifstream file(path, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    for (std::size_t size = 0; size + 20 < bytes.size(); size += 5) {  // the last 20 bytes hold no pixels
+        std::ofstream(cut, std::ios::binary) << bytes.substr(0, size);
+        EXPECT_NE(refusal(cut).find("cut.png"), std::string::npos) << "cut to " << size << " of " << bytes.size();
+    }
+}
+
+TEST(Png, WritingReportsWhatFailed) {
+    EXPECT_THROW(write_png(fresh("no") / "folder" / "a.png", RgbImage(1, 1)), RunError);
+    EXPECT_THROW(write_png(fresh("empty.png"), RgbImage()), RunError);
+}
+
+}  // namespace
+}  // namespace treefarm
