@@ -10,6 +10,7 @@
 #include "cli/inspect_output.h"
 #include "cli/option_values.h"
 #include "common/base/files/atomic_file.h"
+#include "common/base/host.h"
 #include "common/image/png.h"
 #include "common/math/next_event_sums.h"
 #include "common/metrics/false_colour.h"
@@ -90,8 +91,8 @@ std::vector<double> next_event_parts(const RegionModel& regions) {
 
 void look(const InspectOptions& options, const InspectedRun& run, InspectReport& report) {
     const AnySampler guide(run.tree);
-    const TraceScene scene(run.request.scene, run.request.job);
-    std::vector<NamedPlace> places;  // all of them are parsed before any is traced
+    const TraceScene scene(run.request.content.scene, run.request.content.job);
+    std::vector<NamedPlace> places;  // all of them are understood before any is traced
     for (const std::string& pixel : options.pixels)
         places.push_back(pixel_place(pixel, scene, guide));
     for (const std::string& point : options.points)

@@ -161,7 +161,7 @@ PlaceReport look_at_place(const NamedPlace& named, const InspectedRun& run, cons
                           const AnySampler& guide, const BruteForce& settings, const std::filesystem::path& folder) {
     PlaceReport report{named.text, named.place.hit.p, place_facts(scene, guide, named.place), 0.0, {}};
     const PlaceGuidance& guidance = report.facts.guidance;
-    const PlaceTruth truth = trace_place(scene, run.request.plan.job, guide, named.place, settings);
+    const PlaceTruth truth = trace_place(scene, run.request.content.plan.job, guide, named.place, settings);
     report.reflected = integral_of(truth.reflected);
     const auto add = [&](const std::string& kind, const std::vector<Panel>& panels) {
         report.comparisons.push_back(compare(kind, panels, settings.bits, folder / (named.name + "-" + kind + ".png")));
@@ -169,7 +169,7 @@ PlaceReport look_at_place(const NamedPlace& named, const InspectedRun& run, cons
     add("t1", panels_of("T1", run.tree.density_map(guidance.region, settings.bits), "incident radiance", truth.radiance,
                         truth.left));
     if (guidance.has_view()) {
-        const bool product = run.request.job.guiding.view_records == ViewRecords::product;
+        const bool product = run.request.content.job.guiding.view_records == ViewRecords::product;
         add("t2", panels_of("T2", run.tree.density_map(guidance.view, settings.bits),
                             product ? "f cos L" : "incident radiance", product ? truth.reflected : truth.radiance,
                             product ? truth.left_reflected : truth.left));

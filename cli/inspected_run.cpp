@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "cli/refuse.h"
-#include "cli/stored_model.h"
 #include "common/base/files/read_bytes.h"
 #include "common/base/hash.h"
+#include "common/base/refuse.h"
 #include "common/config/job_reader.h"
 #include "common/plan/schedule/schedule_file.h"
 #include "common/scene/pack/scene_codec.h"
+#include "coordinator/render/stored_model.h"
 
 namespace treefarm {
 
@@ -65,19 +65,18 @@ InspectedRun read_inspected_run(const std::filesystem::path& directory) {
     const nlohmann::json summary = read_summary(summary_file);
     InspectedRun run;
     run.directory = directory;
-    RenderOptions options;
-    options.input = job.string();
     StoredModel stored =
         read_tree(directory / "tree.bin", summary_text(summary, summary_file, "tree_file_hash"), read_job_file(job));
     run.tree = std::move(stored.model);
     run.tree_bytes = stored.bytes;
-    run.request = read_request(options);
-    if (hash_text(content_hash(encode_scene(run.request.scene))) != summary_text(summary, summary_file, "scene_hash"))
-        refuse(run.request.job.scene.file, "is not the scene that " + job.string() + " rendered: it has changed since",
-               "render again");
+    run.request = read_request({.file = job.string()}, {});
+    if (hash_text(content_hash(encode_scene(run.request.content.scene))) !=
+        summary_text(summary, summary_file, "scene_hash"))
+        refuse(run.request.content.job.scene.file,
+               "is not the scene that " + job.string() + " rendered: it has changed since", "render again");
     const std::filesystem::path schedule = directory / "schedule.toml";
     const std::vector<PassPlan> passes =
-        parse_schedule(read_settings_text(schedule, "schedule"), schedule.string(), run.request.plan.job);
+        parse_schedule(read_settings_text(schedule, "schedule"), schedule.string(), run.request.content.plan.job);
     const auto teacher = std::find_if(passes.rbegin(), passes.rend(), [](const PassPlan& pass) { return pass.record; });
     run.taught_by_next_event = teacher != passes.rend() && teacher->next_event;
     return run;

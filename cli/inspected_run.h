@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "cli/render.h"
 #include "common/guiding/any_guide.h"
+#include "coordinator/render/read_request.h"
 
 namespace treefarm {
 

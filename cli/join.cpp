@@ -19,14 +19,16 @@
 
 #include "cli/on_farm.h"
 #include "cli/option_values.h"
-#include "cli/refuse.h"
+#include "cli/this_build.h"
 #include "common/base/error.h"
+#include "common/base/host.h"
 #include "common/base/interrupt.h"
+#include "common/base/refuse.h"
 #include "common/base/timer.h"
 #include "common/comm/join_ticket.h"
 #include "common/comm/tcp_channel.h"
+#include "worker/local_worker.h"
 #include "worker/registry.h"
-#include "worker/worker_loop.h"
 
 namespace treefarm {
 
@@ -72,7 +74,7 @@ class Guest {
   public:
     Guest(const JoinOptions& options, unsigned threads, const Voice& voice, const std::string& name)
         : options_(options),
-          settings_(worker_settings(threads)),
+          settings_(worker_here(threads, this_build().hash())),
           log_(make_log(name, {}, voice.console, voice.loudness)) {}
 
     /// Runs the worker; returns the exit code.

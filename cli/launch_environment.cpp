@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/launch_environment.h"
 
-#include <sched.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <string_view>
-#include <thread>
 
 #include "common/base/environment.h"
 #include "common/base/error.h"
@@ -89,17 +87,6 @@ bool is_separate_world(const LaunchEnvironment& launch) {
 
 void skip_network_search() {
     setenv("OMPI_MCA_pml", "ob1", /*overwrite=*/0);
-}
-
-unsigned affinity_threads() {
-    cpu_set_t set;
-    CPU_ZERO(&set);
-    if (sched_getaffinity(0, sizeof set, &set) == 0) return static_cast<unsigned>(CPU_COUNT(&set));
-    return std::max(1u, std::thread::hardware_concurrency());  // more processors than the set can hold
-}
-
-unsigned host_processors() {
-    return static_cast<unsigned>(std::max(1L, sysconf(_SC_NPROCESSORS_ONLN)));
 }
 
 }  // namespace treefarm

@@ -35,10 +35,4 @@ bool is_separate_world(const LaunchEnvironment& launch);
 /// takes time and ends with shared memory (ob1). The environment and mpirun's options take precedence.
 void skip_network_search();
 
-/// Number of processors that this process may run on.
-unsigned affinity_threads();
-
-/// Number of processors of this host.
-unsigned host_processors();
-
 }  // namespace treefarm

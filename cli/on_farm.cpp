@@ -6,21 +6,18 @@
 #include <cstdlib>
 #include <exception>
 #include <optional>
-#include <thread>
 
 #include "cli/option_values.h"
 #include "cli/this_build.h"
 #include "common/base/error.h"
 #include "common/base/host.h"
 #include "common/base/interrupt.h"
-#include "common/comm/in_process_channel.h"
 #include "common/comm/mpi_channel.h"
 #include "common/comm/multi_channel.h"
 #include "common/comm/run_key.h"
-#include "coordinator/farm/farm.h"
 #include "coordinator/farm/pulse.h"
+#include "worker/local_worker.h"
 #include "worker/registry.h"
-#include "worker/worker_loop.h"
 
 namespace treefarm {
 
@@ -33,33 +30,9 @@ constexpr double kFinalizeSeconds = 10.0;
 /// Runs the coordinator and one worker in this process.
 int run_here(const FarmOptions& options, const Voice& voice, const FarmTask& task) {
     task.prepare();
-    InterruptWatch watch;
-    auto channels = make_in_process_channels(2);
-    MultiChannel channel(*channels[0]);
-    std::thread worker(
-        [&own = *channels[1], threads = options.threads > 0 ? options.threads : affinity_threads(), &voice] {
-            const Log log = make_log("worker", {}, voice.console, voice.loudness);
-            WorkerSettings settings = worker_settings(threads);
-            settings.silence_seconds = 1e9;  // a worker in the same process is never lost
-            try {
-                run_worker(own, settings, make_renderer, log);
-            } catch (const std::exception& error) {  // the coordinator notices the silence
-                log->error("{}", error.what());
-            }
-        });
-    const auto send_away = [&] {
-        dismiss_workers(channel, {}, kDismissSeconds);
-        channel.close();
-        worker.join();
-    };
-    try {
-        const CoordinatorEnd end = task.coordinate(channel, [&] { return watch.interrupted(); });
-        send_away();
-        return end.code;
-    } catch (...) {
-        send_away();
-        throw;
-    }
+    InterruptWatch watch;  // before threads start
+    LocalFarm farm(local_worker(options.threads, voice));
+    return task.coordinate({.channel = &farm.channel(), .stop = [&] { return watch.interrupted(); }}).code;
 }
 
 /// Prints an error as main() would, since the MPI job must be ended in order before that.
@@ -106,7 +79,7 @@ int coordinate(const LaunchEnvironment& launch, MpiSession& session, const FarmT
     MultiChannel channel(session.channel());
     const CoordinatorEnd end = guarded([&] {
         prepare(launch, session, task, watch);
-        return task.coordinate(channel, [&] { return watch.interrupted(); });
+        return task.coordinate({.channel = &channel, .stop = [&] { return watch.interrupted(); }});
     });
     if (launch.life) launch.life->end(end.code, ended_by_launcher(launch, watch));
     const bool orderly = dismiss_workers(channel, end.lost, kDismissSeconds);
@@ -129,7 +102,7 @@ int work(MpiSession& session, const FarmOptions& options, const Voice& voice, In
     for (const std::string& warning : warnings)
         log->warn("{}", warning);
     try {
-        WorkerSettings settings = worker_settings(threads);
+        WorkerSettings settings = worker_here(threads, this_build().hash());
         settings.told_to_leave = [&watch] { return watch.terminated(); };
         const WorkerEnd end = run_worker(session.channel(), settings, make_renderer, log);
         const int code = end == WorkerEnd::orphaned ? 1 : 0;
@@ -176,9 +149,15 @@ std::string missing_processes(const LaunchEnvironment& launch, double seconds) {
 
 }  // namespace
 
-WorkerSettings worker_settings(unsigned threads) {
-    const Host host = this_host();
-    return {.threads = threads, .host = host.name, .fingerprint = this_build().hash(), .memory = host.available_bytes};
+Voice errors_only() {
+    return {std::make_shared<Console>(TerminalKind{}, false), Loudness::quiet};
+}
+
+LocalWorker local_worker(unsigned threads, const Voice& voice) {
+    return [threads, voice](Channel& own) {
+        const Log log = make_log("worker", {}, voice.console, voice.loudness);
+        run_local_worker(own, threads, this_build().hash(), log);
+    };
 }
 
 void add_voice_options(CLI::App& command, FarmOptions& options) {

@@ -8,7 +8,7 @@
 
 #include "cli/launch_environment.h"
 #include "common/base/console.h"
-#include "common/comm/channel.h"
+#include "coordinator/render/render_request.h"
 
 namespace CLI {
 class App;
@@ -24,8 +24,8 @@ struct CoordinatorEnd {
 
 /// The coordinator's part of a command, between the start of the workers and their dismissal.
 struct FarmTask {
-    std::function<void()> prepare;  ///< reads and checks the input; without mpirun a signal interrupts it
-    std::function<CoordinatorEnd(Channel&, const std::function<bool()>& interrupted)> coordinate;
+    std::function<void()> prepare;  ///< reads and checks the input; without mpirun a signal breaks it off
+    std::function<CoordinatorEnd(const RenderWorkers&)> coordinate;
 };
 
 /// Options for running a command on a farm.
@@ -41,19 +41,21 @@ void add_voice_options(CLI::App& command, FarmOptions& options);
 /// Adds --threads, --quiet, --verbose, --start-seconds
 void add_farm_options(CLI::App& command, FarmOptions& options);
 
-/// Settings of a worker in this process.
-struct WorkerSettings;
-WorkerSettings worker_settings(unsigned threads);
-
-/// Console output of this process: its stream and verbosity.
+/// The voice of this process: where it speaks, and how much it says.
 struct Voice {
     ConsolePtr console;
     Loudness loudness = Loudness::normal;
 };
 Voice make_voice(const LaunchEnvironment& launch, const FarmOptions& options);
 
-/// Runs the task over all processes of the MPI job, or as coordinator and one worker in this process. Returns the exit
-/// code; InputError and RunError leave it in one process only.
+/// Only what goes wrong, and no status.
+Voice errors_only();
+
+/// A worker in this process. `threads`: 0: its processors.
+LocalWorker local_worker(unsigned threads, const Voice& voice);
+
+/// Runs the task over all processes of the MPI job, or over coordinator and one worker in this process. Returns the
+/// exit code; InputError and RunError leave it in one process only.
 int run_on_farm(const LaunchEnvironment& launch, const FarmOptions& options, const Voice& voice, const FarmTask& task);
 
 /// Adds a warning if there are more threads than processors.

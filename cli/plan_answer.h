@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "cli/probe.h"
 #include "common/plan/forecast/expectation.h"
+#include "coordinator/render/probe.h"
 
 namespace treefarm {
 

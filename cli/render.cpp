@@ -6,9 +6,11 @@
 
 #include "cli/debug_sample.h"
 #include "cli/exit_code.h"
+#include "cli/observer.h"
 #include "cli/option_values.h"
 #include "cli/render_shot.h"
-#include "cli/resume.h"
+#include "coordinator/render/render_series.h"
+#include "coordinator/render/resume.h"
 #include "coordinator/run/folder_content.h"
 #include "coordinator/words/reading_notice.h"
 
@@ -16,15 +18,16 @@ namespace treefarm {
 
 namespace {
 
-/// Runs --debug-sample, in one process.
-int debug(const LaunchEnvironment& launch, const RenderOptions& options) {
-    if (launch.rank != 0) return 0;
+/// A sample is traced in one process.
+void debug(const LaunchEnvironment& launch, const RenderOptions& options) {
+    if (launch.rank != 0) return;
     if (launch.under_mpi)
         throw InputError(Location{"--debug-sample", 0, 0}, "traces one sample in one process", "leave mpirun away");
     RenderRequest request = read_request(options);
-    request.resumed = find_checkpoint(options.run_directory, request);
-    if (names_tile(options.debug_sample)) return debug_tile(request, options.debug_sample);
-    return debug_sample(request, parse_sample_name(options.debug_sample));
+    request.start.checkpoint = find_checkpoint(options.run_directory, request);
+    const Voice voice = errors_only();
+    request.workers.local = local_worker(0, voice);
+    debug_sample(request, options.debug_sample, console_messages("treefarm", voice.console, voice.loudness));
 }
 
 }  // namespace
@@ -33,7 +36,7 @@ int render_on_farm(const LaunchEnvironment& launch, const FarmOptions& farm, con
                    const std::function<RenderRequest()>& read, const GoOn& go_on) {
     if (is_separate_world(launch)) return 2;
     RenderRequest request;
-    std::optional<int> there;
+    std::optional<RenderOutcome> there;
     FarmTask task;
     const Voice voice = make_voice(launch, farm);
     task.prepare = [&] {
@@ -41,19 +44,19 @@ int render_on_farm(const LaunchEnvironment& launch, const FarmOptions& farm, con
         const ReadingNotice notice(voice.console, name);
         request = read();
         if (go_on) there = go_on(request);
-        warn_if_crowded(farm.threads, request.warnings);
-        request.console = voice.console;
-        request.loudness = voice.loudness;
-        request.life = launch.life;
+        warn_if_crowded(farm.threads, request.content.warnings);
     };
-    task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
+    task.coordinate = [&](const RenderWorkers& workers) -> CoordinatorEnd {
         if (there) {
             make_log("treefarm", {}, voice.console, voice.loudness)
-                ->info("{} holds this render already: {}", request.job.output.directory,
-                       render_words(request.job.output.directory));
-            return {*there, {}};
+                ->info("{} holds this render already: {}", there->folder.string(), render_words(there->folder));
+            return {exit_code_of(there->state, there->missed_target), {}};
         }
-        const RenderOutcome outcome = run_render(channel, request, interrupted);
+        request.workers = workers;
+        if (launch.life) request.origin.attempt = launch.life->attempt();
+        Progress shown(voice.console, request.content.job.budget);
+        const RenderObserver observer = make_observer(voice, launch.life);
+        const RenderOutcome outcome = render(request, shown_by(shown, observer));
         return {exit_code_of(outcome.state, outcome.missed_target), outcome.lost_peers};
     };
     return run_on_farm(launch, farm, voice, task);
@@ -68,10 +71,11 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
     add_text_option(*command, "-o,--output", options->output,
                     "also write the image here: an .exr file, or a .png to look at (image.exr is "
                     "in the run directory in any case)");
-    add_samples_option(*command, options->spp, "samples per pixel, rounded up to whole passes' units (default: 64)");
-    add_seconds_option(*command, "--seconds", options->seconds, "seconds of rendering; 2min and 1h, too");
-    add_error_option(*command, options->error, "stop at this RMSE / mean luminance: 0.05, or 5%");
-    add_text_option(*command, "--schedule", options->schedule, "repeat the passes of this schedule.toml");
+    add_samples_option(*command, options->budget.spp,
+                       "samples per pixel, rounded up to whole passes' units (default: 64)");
+    add_seconds_option(*command, "--seconds", options->budget.seconds, "seconds of rendering; 2min and 1h, too");
+    add_error_option(*command, options->budget.error, "stop at this RMSE / mean luminance: 0.05, or 5%");
+    add_text_option(*command, "--schedule", options->budget.schedule, "repeat the passes of this schedule.toml");
     add_texts_option(*command, "--set", options->set, "key=value: sets a key of the job (treefarm keys lists them)");
     add_texts_option(*command, "-D", options->defines, "name=value: gives $name in the scene a value");
     add_text_option(*command, "--sensor", options->sensor, "which of several sensors, by number from 0 on or by id");
@@ -100,7 +104,7 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
         if (!options->frames.empty())
             exit_code = render_shot(launch, *options);
         else if (!options->debug_sample.empty())
-            exit_code = debug(launch, *options);
+            debug(launch, *options);
         else
             exit_code = render_on_farm(launch, options->farm, std::filesystem::path(options->input).stem().string(),
                                        read, options->resume ? GoOn(go_on_in_folder) : GoOn());

@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "cli/exit_code.h"
-#include "cli/refuse.h"
-#include "cli/resume.h"
-#include "cli/this_build.h"
+#include "cli/observer.h"
+#include "cli/render.h"
+#include "common/base/refuse.h"
 #include "common/config/job_reader.h"
 #include "coordinator/shot/frame_record.h"
 #include "coordinator/shot/frames.h"
@@ -40,13 +40,15 @@ std::string carried_model(const Shot& shot, int frame) {
     return "";
 }
 
-RenderRequest frame_request(const RenderOptions& shot_options, const Shot& shot, int frame) {
+RenderRequest frame_request(const RenderOptions& shot_options, const Shot& shot, int frame,
+                            const std::string& attempt) {
     RenderOptions options = frame_options(shot_options, frame);
     if (options.carry_model)
         if (const std::string model = carried_model(shot, frame); !model.empty())
             options.set.push_back("guiding.initial_model=" + model);
     RenderRequest request = read_request(options);
-    std::string& file = request.job.output.file;  // of -o, --set or the job
+    request.origin.attempt = attempt;
+    std::string& file = request.content.job.output.file;  // of -o, --set or the job
     file = output_for_frame(file, frame);
     return request;
 }
@@ -54,7 +56,7 @@ RenderRequest frame_request(const RenderOptions& shot_options, const Shot& shot,
 void check(const RenderOptions& options, std::size_t frame_count) {
     if (!options.debug_sample.empty())
         refuse("--debug-sample", "traces one sample of one render", "leave --frames away, and give -D its value");
-    if (!options.schedule.empty())
+    if (!options.budget.schedule.empty())
         refuse("--schedule", "repeats the passes of one render", "leave it or --frames away");
     if (names_frame(options.run_directory))
         refuse("--run-dir", "is the folder of all frames, each of which gets one in it", "leave %d away");
@@ -85,12 +87,12 @@ int render_shot(const LaunchEnvironment& launch, const RenderOptions& options) {
     FarmTask task;
     const Voice voice = make_voice(launch, options.farm);
     const Log log = make_log("treefarm", {}, voice.console, voice.loudness);
+    const std::string attempt = launch.life ? launch.life->attempt() : "";
     task.prepare = [&] {
         shot.frames = parse_frames(options.frames, Location{"--frames", 0, 0});
         check(options, shot.frames.size());
         shot.directory = shot_directory(options);
-        shot.read_request = [&](int frame) { return frame_request(options, shot, frame); };
-        shot.find_checkpoint = find_checkpoint;
+        shot.read_request = [&](int frame) { return frame_request(options, shot, frame, attempt); };
         std::vector<std::string> warnings;
         warn_if_crowded(options.farm.threads, warnings);
         if (shot.frames.size() > 1 && !varies(options))
@@ -98,11 +100,10 @@ int render_shot(const LaunchEnvironment& launch, const RenderOptions& options) {
         for (const std::string& warning : warnings)
             log->warn("{}", warning);
     };
-    task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
-        const ShotOutcome outcome = run_shot(
-            channel, shot,
-            {options.command, this_build(), voice.console, voice.loudness, options.overwrite, log, launch.life},
-            interrupted);
+    task.coordinate = [&](const RenderWorkers& workers) -> CoordinatorEnd {
+        SeriesContext series = make_series(render_origin(options), workers, voice, log, launch.life);
+        series.overwrite = options.overwrite;
+        const ShotOutcome outcome = run_shot(shot, series);
         return {exit_code_of(outcome.state, outcome.missed_target), outcome.lost_peers};
     };
     return run_on_farm(launch, options.farm, voice, task);

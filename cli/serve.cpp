@@ -9,9 +9,9 @@
 #include <thread>
 
 #include "cli/option_values.h"
-#include "cli/refuse.h"
 #include "common/base/host.h"
 #include "common/base/interrupt.h"
+#include "common/base/refuse.h"
 #include "serve/site.h"
 #include "serve/token.h"
 #include "serve/web_server.h"

@@ -6,10 +6,10 @@
 #include <memory>
 
 #include "cli/exit_code.h"
-#include "cli/input_kind.h"
-#include "cli/on_farm.h"
+#include "cli/observer.h"
 #include "cli/option_values.h"
 #include "cli/this_build.h"
+#include "coordinator/render/input_kind.h"
 #include "coordinator/study/study_run.h"
 #include "report/figure_export.h"
 #include "report/price_list.h"
@@ -45,7 +45,7 @@ Study read_study_for(const StudyOptions& options) {
 
 int study(const LaunchEnvironment& launch, const StudyOptions& options) {
     if (options.dry_run) {
-        if (launch.rank == 0) list_cells(read_study_for(options), this_build(), std::cout);
+        if (launch.rank == 0) list_cells(read_study_for(options), {.fingerprint = this_build()}, std::cout);
         return 0;
     }
     if (is_separate_world(launch)) return 2;
@@ -60,11 +60,11 @@ int study(const LaunchEnvironment& launch, const StudyOptions& options) {
         for (const std::string& warning : warnings)
             log->warn("{}", warning);
     };
-    task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
-        const StudyOutcome outcome = run_study(
-            channel, study,
-            {options.command, this_build(), voice.console, voice.loudness, options.overwrite, log, launch.life},
-            interrupted);
+    task.coordinate = [&](const RenderWorkers& workers) -> CoordinatorEnd {
+        SeriesContext series =
+            make_series({.command = options.command, .fingerprint = this_build()}, workers, voice, log, launch.life);
+        series.overwrite = options.overwrite;
+        const StudyOutcome outcome = run_study(study, series);
         return {exit_code_of(outcome.state), outcome.lost_peers};
     };
     const int code = run_on_farm(launch, options.farm, voice, task);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/base/host.h"
 
+#include <sched.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <limits>
 #include <optional>
 #include <sstream>
+#include <thread>
 
 namespace treefarm {
 
@@ -99,6 +101,17 @@ Host this_host() {
     const std::uint64_t least = std::min(available, left_of_control_groups());
     host.available_bytes = least == kUnlimited ? 0 : std::max<std::uint64_t>(1, least);
     return host;
+}
+
+unsigned affinity_threads() {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    if (sched_getaffinity(0, sizeof set, &set) == 0) return static_cast<unsigned>(CPU_COUNT(&set));
+    return std::max(1u, std::thread::hardware_concurrency());  // more processors than the set holds
+}
+
+unsigned host_processors() {
+    return static_cast<unsigned>(std::max(1L, sysconf(_SC_NPROCESSORS_ONLN)));
 }
 
 std::string processor_name() {

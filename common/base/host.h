@@ -19,6 +19,12 @@ struct Host {
 /// is less: in a container or a Slurm job the group is what ends a process.
 Host this_host();
 
+/// Processors that this process may run on.
+unsigned affinity_threads();
+
+/// Processors of this host.
+unsigned host_processors();
+
 /// The processor's name in /proc/cpuinfo; "" where it has none.
 std::string processor_name();
 

@@ -21,27 +21,24 @@ std::string payload(const spdlog::details::log_msg& message) {
     return printable({message.payload.data(), message.payload.size()});
 }
 
-class ConsoleSink final : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
+MessageLevel message_level(spdlog::level::level_enum level) {
+    return level >= spdlog::level::err    ? MessageLevel::error
+           : level >= spdlog::level::warn ? MessageLevel::warning
+           : level >= spdlog::level::info ? MessageLevel::info
+                                          : MessageLevel::detail;
+}
+
+class TellingSink final : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
   public:
-    explicit ConsoleSink(ConsolePtr console) : console_(std::move(console)) {}
+    explicit TellingSink(TellMessage tell) : tell_(std::move(tell)) {}
 
   private:
     void sink_it_(const spdlog::details::log_msg& message) override {
-        std::string before;
-        if (message.level >= spdlog::level::warn) {
-            const bool error = message.level >= spdlog::level::err;
-            before = std::string(message.logger_name.data(), message.logger_name.size()) + ": " +
-                     coloured(error ? "error" : "warning", error ? "\x1b[1;31m" : "\x1b[1;33m") + ": ";
-        }
-        console_->line(before + payload(message));
+        tell_(message_level(message.level), payload(message));
     }
     void flush_() override {}
 
-    std::string coloured(const std::string& word, const char* colour) const {
-        return console_->kind().colour ? colour + word + "\x1b[m" : word;
-    }
-
-    const ConsolePtr console_;
+    const TellMessage tell_;
 };
 
 /// The flag %*: the message on one line, whatever is in it.
@@ -101,23 +98,38 @@ class AsideSink final : public spdlog::sinks::base_sink<spdlog::details::null_mu
     const std::shared_ptr<spdlog::async_logger> logger_;
 };
 
-spdlog::level::level_enum least_level(Loudness loudness) {
-    return loudness == Loudness::quiet    ? spdlog::level::err
-           : loudness == Loudness::normal ? spdlog::level::info
-                                          : spdlog::level::debug;
+MessageLevel least_level(Loudness loudness) {
+    return loudness == Loudness::quiet    ? MessageLevel::error
+           : loudness == Loudness::normal ? MessageLevel::info
+                                          : MessageLevel::detail;
 }
 
 }  // namespace
 
-Log make_log(const std::string& who, const std::filesystem::path& file, const ConsolePtr& console, Loudness loudness) {
-    auto terminal = std::make_shared<ConsoleSink>(console);
-    terminal->set_level(least_level(loudness));
-    std::vector<spdlog::sink_ptr> sinks = {std::move(terminal)};
+Log make_log(const std::string& who, const std::filesystem::path& file, const TellMessage& tell) {
+    std::vector<spdlog::sink_ptr> sinks;
+    if (tell) sinks.push_back(std::make_shared<TellingSink>(tell));
     if (!file.empty()) sinks.push_back(std::make_shared<AsideSink>(who, file));
     auto log = std::make_shared<spdlog::logger>(who, sinks.begin(), sinks.end());
     log->set_level(spdlog::level::debug);
     log->flush_on(spdlog::level::info);
     return log;
+}
+
+TellMessage console_messages(const std::string& who, const ConsolePtr& console, Loudness loudness) {
+    return [who, console, least = least_level(loudness)](MessageLevel level, const std::string& text) {
+        if (level < least) return;
+        if (level < MessageLevel::warning) return console->line(text);
+        const bool error = level == MessageLevel::error;
+        const std::string word = error ? "error" : "warning";
+        const bool colour = console->kind().colour;
+        console->line(who + ": " + (colour ? (error ? "\x1b[1;31m" : "\x1b[1;33m") + word + "\x1b[m" : word) + ": " +
+                      text);
+    };
+}
+
+Log make_log(const std::string& who, const std::filesystem::path& file, const ConsolePtr& console, Loudness loudness) {
+    return make_log(who, file, console_messages(who, console, loudness));
 }
 
 }  // namespace treefarm

@@ -4,7 +4,9 @@
 #include <spdlog/logger.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <string>
 
 #include "common/base/console.h"
 
@@ -12,9 +14,20 @@ namespace treefarm {
 
 using Log = std::shared_ptr<spdlog::logger>;
 
-/// A log that writes to the console, as much as `loudness` says, and, where `file` is not empty, everything to a file:
-/// in a thread of its own, that has written all when the log ends.
-/// `who` ("treefarm", "worker 3") stands before warnings and errors; plain information stands alone.
+enum class MessageLevel { detail, info, warning, error };
+
+/// Takes the lines of a log, each without line end and control characters. May be empty.
+using TellMessage = std::function<void(MessageLevel, const std::string&)>;
+
+/// A log that tells its lines and, where `file` is not empty, writes them to a file: in a thread of its own, that has
+/// written all when the log ends. `who`: stands before each in the file.
+Log make_log(const std::string& who, const std::filesystem::path& file, const TellMessage& tell);
+
+/// Writes lines to the console, as much as `loudness` says. `who` ("treefarm", "worker 3") stands before warnings and
+/// errors; plain information stands alone.
+TellMessage console_messages(const std::string& who, const ConsolePtr& console, Loudness loudness);
+
+/// A log that writes to the console, as much as `loudness` says, and everything to a file, if one is named.
 Log make_log(const std::string& who, const std::filesystem::path& file, const ConsolePtr& console, Loudness loudness);
 
 }  // namespace treefarm

@@ -257,6 +257,7 @@ class PassLoop {
             progress.fraction = std::min(1.0, (plan.first_sample + of_pass * plan.spp) / chosen.spp_total);
         progress.error = state_.history.error;
         progress.workers = farm_.roster().present_count();
+        progress.units = ledger.done();
         progress.rays = farm_.rays_traced();
         progress.run_seconds = run_seconds();
         if (!result_.passes.empty()) {

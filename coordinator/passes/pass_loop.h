@@ -25,6 +25,7 @@ struct RenderProgress {
     double fraction = 0;          ///< of all samples; 0: unknown yet
     ErrorEstimate error;          ///< after the last finished pass
     std::size_t workers = 0;
+    std::uint64_t units = 0;  ///< of the pass, that are finished
     std::uint64_t rays = 0;   ///< so far
     double run_seconds = 0;   ///< since the first worker requested units
     ErrorForecast target;     ///< until budget.error, forecast at target_since

@@ -4,8 +4,8 @@
 #include <ctime>
 #include <vector>
 
-#include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
+#include "common/base/refuse.h"
 #include "coordinator/run/folder_content.h"
 
 namespace treefarm {
@@ -24,10 +24,6 @@ std::string time_stamp() {
     char text[32];
     std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", &local);
     return text;
-}
-
-[[noreturn]] void refuse(const fs::path& folder, const std::string& what, const std::string& cure) {
-    throw InputError(Location{folder.string(), 0, 0}, what, cure);
 }
 
 fs::path make_folder(const Job& job) {

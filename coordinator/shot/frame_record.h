@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "coordinator/render/finished_render.h"
 
 namespace treefarm {
 
@@ -20,16 +20,11 @@ enum class FrameState : std::uint8_t {
     interrupted,  ///< the image of its finished passes exists
 };
 
-/// A frame of a shot, with its reported figures.
-struct FrameRecord {
+/// A frame of a shot, and what is told of it.
+struct FrameRecord : RenderFigures {
     int frame = 0;
     FrameState state = FrameState::waiting;
-    std::uint32_t spp = 0;
-    double seconds = 0;
-    std::optional<double> error;  ///< relative; unknown with one sample per pixel
-    bool missed_target = false;   ///< its error is above budget.error
-    std::string message;          ///< reason of the failure
-    std::filesystem::path image;  ///< path of the image
+    std::string message;  ///< what went wrong
 };
 
 /// Name of a frame's run directory within that of the shot: "frame.0007".

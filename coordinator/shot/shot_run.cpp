@@ -9,10 +9,12 @@
 
 #include "common/base/files/atomic_file.h"
 #include "coordinator/farm/pulse.h"
+#include "coordinator/render/finished_render.h"
+#include "coordinator/render/resume.h"
 #include "coordinator/run/folder_content.h"
 #include "coordinator/run/folder_lock.h"
 #include "coordinator/run/last_files.h"
-#include "coordinator/shot/finished_frame.h"
+#include "coordinator/shot/frame_record.h"
 #include "coordinator/shot/frames.h"
 #include "coordinator/words/pass_text.h"
 #include "coordinator/words/reading_notice.h"
@@ -52,14 +54,14 @@ void check_shot_folder(const fs::path& folder) {
 
 class ShotRun {
   public:
-    ShotRun(Channel& channel, const Shot& shot, const SeriesContext& context, const std::function<bool()>& interrupted)
-        : pulse_(channel),
+    ShotRun(const Shot& shot, const SeriesContext& context)
+        : pulse_(*context.workers.channel),
           shot_(shot),
           context_(context),
           log_(context.log),
-          interrupted_(interrupted),
+          interrupted_(context.workers.stop),
           progress_("frame", shot.frames.size()),
-          series_(channel, context, interrupted) {
+          series_(context) {
         for (const int frame : shot.frames)
             records_.emplace_back().frame = frame;
     }
@@ -97,7 +99,8 @@ class ShotRun {
 
     void write_index() const {
         const std::string text =
-            shot_json(context_.command, records_).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+            shot_json(context_.origin.command, records_).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) +
+            "\n";
         write_file_atomically(shot_.directory / "shot.json",
                               {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     }
@@ -142,19 +145,19 @@ class ShotRun {
                 },
                 [&] { pulse_.beat(); });
         }
-        prepare_output(request.job.output.file, record.frame);
-        if (is_there && restore_output(folder, request.job.output.file)) {
+        prepare_output(request.content.job.output.file, record.frame);
+        if (is_there && restore_output(folder, request.content.job.output.file)) {
             take_figures(folder, request, record);
             record.state = FrameState::kept;
             tell(record);
             return;
         }
         tell_warnings(request);
-        // An unfinished frame that cannot be resumed is started again; another request's result is replaced only on
-        // request.
-        request.overwrite = context_.overwrite || is_there || !holds_result(folder);
-        request.status_frame = [this](const RenderWords& words) { return progress_.status(words); };
-        const RenderOutcome outcome = series_.render(request, folder);
+        // What was broken off and cannot go on is begun again, but another request's result is replaced only where that
+        // is asked for.
+        request.storage.overwrite = context_.overwrite || is_there || !holds_result(folder);
+        const RenderOutcome outcome =
+            series_.render(request, folder, [this](const RenderWords& words) { return progress_.status(words); });
         take_figures(folder, request, record);
         switch (outcome.state) {
             case RunState::done:
@@ -173,12 +176,12 @@ class ShotRun {
     /// Resumes an unfinished frame.
     void go_on(const fs::path& folder, RenderRequest& request) const {
         if (holds_result(folder)) return;
-        request.resumed = shot_.find_checkpoint(folder, request);
+        request.start.checkpoint = find_checkpoint(folder, request);
     }
 
     static void take_figures(const fs::path& folder, const RenderRequest& request, FrameRecord& record) {
-        read_figures(folder, record);
-        if (!request.job.output.file.empty()) record.image = request.job.output.file;
+        static_cast<RenderFigures&>(record) = read_figures(folder);
+        if (!request.content.job.output.file.empty()) record.image = request.content.job.output.file;
     }
 
     /// Prepares a frame's output file; throws InputError if another frame has the same.
@@ -194,7 +197,7 @@ class ShotRun {
 
     /// Logs warnings of frames, each once: frames of one scene have the same.
     void tell_warnings(const RenderRequest& request) {
-        for (const std::string& warning : request.warnings)
+        for (const std::string& warning : request.content.warnings)
             if (told_.insert(warning).second) log_->warn("{}", warning);
     }
 
@@ -245,9 +248,8 @@ class ShotRun {
 
 }  // namespace
 
-ShotOutcome run_shot(Channel& channel, const Shot& shot, const SeriesContext& context,
-                     const std::function<bool()>& interrupted) {
-    return ShotRun(channel, shot, context, interrupted).run();
+ShotOutcome run_shot(const Shot& shot, const SeriesContext& context) {
+    return ShotRun(shot, context).run();
 }
 
 }  // namespace treefarm

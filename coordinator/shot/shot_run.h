@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "coordinator/run/render_series.h"
+#include "coordinator/render/render_series.h"
 
 namespace treefarm {
 
@@ -12,9 +12,6 @@ struct Shot {
     std::filesystem::path directory;                 ///< folder of their run directories
     std::vector<int> frames;                         ///< in the order in which they are rendered
     std::function<RenderRequest(int)> read_request;  ///< reads a frame's job and scene; throws InputError
-    /// Finds the checkpoint of an unfinished frame's folder that a request can resume; nullptr: none.
-    std::function<std::shared_ptr<LoadedCheckpoint>(const std::filesystem::path&, const RenderRequest&)>
-        find_checkpoint;
 };
 
 struct ShotOutcome {
@@ -23,11 +20,10 @@ struct ShotOutcome {
     std::set<int> lost_peers;
 };
 
-/// Renders the missing frames within one allocation of workers, and writes to the shot's folder:
-///   shot.json      state of every frame
-///   frame.0001/    run directory of a frame
-/// A failing frame stops no other. Throws InputError if the folder has other content.
-ShotOutcome run_shot(Channel& channel, const Shot& shot, const SeriesContext& context,
-                     const std::function<bool()>& interrupted);
+/// Renders the frames that are not there yet, in one allocation of workers, and leaves in the shot's folder:
+///   shot.json      how every frame stands
+///   frame.0001/    a run directory each
+/// A frame that fails stops no other. Throws InputError where the folder cannot be a shot's.
+ShotOutcome run_shot(const Shot& shot, const SeriesContext& context);
 
 }  // namespace treefarm

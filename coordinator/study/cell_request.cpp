@@ -5,6 +5,7 @@
 #include "common/config/check_job.h"
 #include "common/config/job_reader.h"
 #include "common/scene/pack/scene_codec.h"
+#include "coordinator/render/read_request.h"
 
 namespace treefarm {
 
@@ -28,24 +29,17 @@ LoadedScene load_study_scene(const Study& study, const StudyScene& scene) {
 }
 
 RenderRequest study_request(const Study& study, const StudyScene& scene, const LoadedScene& loaded,
-                            std::span<const Setting> method, std::span<const Setting> more, const Fingerprint& build) {
-    RenderRequest request;
-    apply_layer(request.job, scene_layer(loaded.settings, {study.job, scene.settings, method, more}));
-    apply_layer(request.job, study.job);
-    apply_layer(request.job, scene.settings);
-    apply_layer(request.job, method);
-    apply_layer(request.job, more);
-    request.job.scene.file = scene.file;
-    check_job(request.job);
-    request.scene = loaded.scene;
-    request.plan = plan_effects(request.scene, request.job);
-    for (const Warning& warning : loaded.warnings)
-        request.warnings.push_back(warning.text());
-    for (const Warning& note : loaded.notes)
-        request.notes.push_back(note.text());
-    request.plan.warnings = request.warnings;
-    request.fingerprint = build;
-    return request;
+                            std::span<const Setting> method, std::span<const Setting> more,
+                            const RenderOrigin& origin) {
+    RenderContent content;
+    content.job = merged_job(loaded, {study.job, scene.settings, method, more});
+    content.job.scene.file = scene.file;
+    check_job(content.job);
+    content.scene = loaded.scene;
+    content.plan = plan_effects(content.scene, content.job);
+    take_warnings(loaded, content);
+    content.plan.warnings = content.warnings;
+    return {.content = std::move(content), .origin = origin};
 }
 
 std::vector<Setting> cell_settings(const Study& study, const StudyCell& cell) {
@@ -55,10 +49,10 @@ std::vector<Setting> cell_settings(const Study& study, const StudyCell& cell) {
 }
 
 std::uint64_t request_key(const RenderRequest& request, const std::string& more) {
-    Job job = request.job;
+    Job job = request.content.job;
     job.output = {};
-    const std::string text = write_job(job) + hash_text(content_hash(encode_scene(request.scene))) +
-                             hash_text(request.fingerprint.hash()) + more;
+    const std::string text = write_job(job) + hash_text(content_hash(encode_scene(request.content.scene))) +
+                             hash_text(request.origin.fingerprint.hash()) + more;
     return hash_bytes({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 

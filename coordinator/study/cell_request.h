@@ -5,7 +5,7 @@
 #include <string>
 
 #include "coordinator/input/load.h"
-#include "coordinator/run/render_run.h"
+#include "coordinator/render/render_request.h"
 #include "coordinator/study/study.h"
 
 namespace treefarm {
@@ -16,7 +16,7 @@ LoadedScene load_study_scene(const Study& study, const StudyScene& scene);
 /// Request of a study's render, without its folder and turn. Layers, each over the previous one: the scene's own
 /// settings, the study's [job], the study's settings of the scene, `method`, `more`. Throws InputError.
 RenderRequest study_request(const Study& study, const StudyScene& scene, const LoadedScene& loaded,
-                            std::span<const Setting> method, std::span<const Setting> more, const Fingerprint& build);
+                            std::span<const Setting> method, std::span<const Setting> more, const RenderOrigin& origin);
 
 /// Settings of a cell besides its method: budget and seed.
 std::vector<Setting> cell_settings(const Study& study, const StudyCell& cell);

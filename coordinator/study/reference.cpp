@@ -33,7 +33,7 @@ void check_given(const RgbImage& image, const Film& film, const Location& where)
 }  // namespace
 
 std::string reference_key(const Study& study, const StudyScene& scene, const LoadedScene& loaded, Reference& reference,
-                          RenderRequest& request, const Fingerprint& build) {
+                          RenderRequest& request, const RenderOrigin& origin) {
     if (!scene.reference.empty()) {
         ExrRgb given = read_exr_rgb(scene.reference);
         const Film& film = loaded.scene.film;
@@ -47,7 +47,7 @@ std::string reference_key(const Study& study, const StudyScene& scene, const Loa
         const auto* bytes = reinterpret_cast<const std::uint8_t*>(given.image.pixels.data());
         return hash_text(hash_bytes({bytes, given.image.pixels.size() * sizeof(Rgb)}));
     }
-    request = study_request(study, scene, loaded, study.reference.settings, {}, build);
+    request = study_request(study, scene, loaded, study.reference.settings, {}, origin);
     const std::uint64_t key = request_key(request, "reference");
     reference.file = (fs::path(study.directory) / "references" / folder_name(scene.name, key) / "image.exr").string();
     return hash_text(key);

@@ -24,6 +24,6 @@ struct Reference {
 
 /// Key of a given reference, or of the request that renders one.
 std::string reference_key(const Study& study, const StudyScene& scene, const LoadedScene& loaded, Reference& reference,
-                          RenderRequest& request, const Fingerprint& build);
+                          RenderRequest& request, const RenderOrigin& origin);
 
 }  // namespace treefarm

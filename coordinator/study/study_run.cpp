@@ -55,10 +55,10 @@ struct ReadyCell {
 };
 
 ReadyCell ready_cell(const Study& study, const StudyCell& cell, const LoadedScene& loaded,
-                     const std::string& reference_key, const Fingerprint& build) {
+                     const std::string& reference_key, const RenderOrigin& origin) {
     ReadyCell ready;
     ready.request = study_request(study, study.scenes[cell.scene], loaded, study.methods[cell.method].settings,
-                                  cell_settings(study, cell), build);
+                                  cell_settings(study, cell), origin);
     ready.folder = fs::path(study.directory) / "cells" /
                    folder_name(cell_words(study, cell), request_key(ready.request, reference_key));
     return ready;
@@ -66,17 +66,16 @@ ReadyCell ready_cell(const Study& study, const StudyCell& cell, const LoadedScen
 
 class StudyRun {
   public:
-    StudyRun(Channel& channel, const Study& study, const SeriesContext& context,
-             const std::function<bool()>& interrupted)
-        : pulse_(channel),
+    StudyRun(const Study& study, const SeriesContext& context)
+        : pulse_(*context.workers.channel),
           study_(study),
           context_(context),
           log_(context.log),
-          interrupted_(interrupted),
+          interrupted_(context.workers.stop),
           directory_(study.directory),
           cells_(study_cells(study)),
           progress_("cell", cells_.size()),
-          series_(channel, context, interrupted) {}
+          series_(context) {}
 
     StudyOutcome run() {
         fs::create_directories(directory_);
@@ -104,7 +103,7 @@ class StudyRun {
 
   private:
     void begin_description() {
-        description_ = {{"study", study_.file}, {"command", context_.command}, {"baseline", study_.baseline}};
+        description_ = {{"study", study_.file}, {"command", context_.origin.command}, {"baseline", study_.baseline}};
         for (const Setting& setting : study_.budgets)
             description_["budget"][setting.key].push_back(setting.value);
         description_["scenes"] = Json::array();
@@ -130,12 +129,12 @@ class StudyRun {
         Reference reference;
         RenderRequest reference_request;
         reference.key =
-            reference_key(study_, study_.scenes[scene], loaded, reference, reference_request, context_.build);
+            reference_key(study_, study_.scenes[scene], loaded, reference, reference_request, context_.origin);
         std::vector<ReadyCell> ready;
         const auto make_ready = [&] {  // packs and hashes the scene for each
             for (const StudyCell& cell : cells_)
                 if (cell.scene == scene) {
-                    ready.push_back(ready_cell(study_, cell, loaded, reference.key, context_.build));
+                    ready.push_back(ready_cell(study_, cell, loaded, reference.key, context_.origin));
                     describe(cell, ready.back());
                 }
         };
@@ -171,10 +170,8 @@ class StudyRun {
             if (!fs::exists(reference.mark())) {
                 log_->info("{}: rendering the reference", of.name);
                 const fs::path folder = fs::path(reference.file).parent_path();
-                request.status_frame = [&of](const RenderWords& w) {
-                    return aside_status("reference of " + of.name, w);
-                };
-                if (render(request, folder).state != RunState::done)
+                const auto frame = [&of](const RenderWords& w) { return aside_status("reference of " + of.name, w); };
+                if (render(request, folder, frame).state != RunState::done)
                     throw RunError("the reference of " + of.name + " could not be rendered: see " +
                                    (folder / "log.txt").string());
             }
@@ -188,12 +185,13 @@ class StudyRun {
         if (of.reference.empty()) write_json(reference.mark(), reference.about);
     }
 
-    /// Renders in a folder of its own, after removing partial files of a killed run.
-    RenderOutcome render(RenderRequest& request, const fs::path& folder) {
+    /// A run in a folder of its own. What a killed run left there goes first.
+    RenderOutcome render(RenderRequest& request, const fs::path& folder, StatusFrame frame,
+                         const decltype(RenderObserver::pass)& pass = {}) {
         if (interrupted_()) throw Interrupted();
         fs::remove_all(folder);
-        request.checkpoints = false;
-        RenderOutcome outcome = series_.render(request, folder);
+        request.storage.checkpoints = false;
+        RenderOutcome outcome = series_.render(request, folder, std::move(frame), pass);
         if (outcome.state == RunState::interrupted) throw Interrupted();
         return outcome;
     }
@@ -204,8 +202,7 @@ class StudyRun {
         const std::string name = "warm-up of " + study_.scenes[scene].name;
         for (int k = 0; needed && k < study_.warmup; ++k) {
             RenderRequest& request = ready[static_cast<std::size_t>(k) % ready.size()].request;
-            request.status_frame = [&name](const RenderWords& w) { return aside_status(name, w); };
-            render(request, directory_ / "warmup");
+            render(request, directory_ / "warmup", [&name](const RenderWords& w) { return aside_status(name, w); });
         }
     }
 
@@ -213,14 +210,13 @@ class StudyRun {
         progress_.begin(cell_words(study_, cell));
         if (ready.done()) return;
         const Timer timer;
-        ready.request.status_frame = [this](const RenderWords& words) { return progress_.status(words); };
         std::vector<MeasuredPass> passes;
         const int width = reference.image.width, height = reference.image.height;
-        ready.request.on_pass = [&](const PassReport& report, const CombinedImage& image) {
+        const auto measure = [&](const PassReport& report, const CombinedImage& image) {
             passes.push_back({report, result_colours(image, width, height)});
         };
-        const RenderOutcome outcome = render(ready.request, ready.folder);
-        if (outcome.state == RunState::failed) {
+        const auto frame = [this](const RenderWords& words) { return progress_.status(words); };
+        if (render(ready.request, ready.folder, frame, measure).state == RunState::failed) {
             log_->error("{}: failed, see {}", cell_words(study_, cell), (ready.folder / "log.txt").string());
             if (++failures_ >= kMostFailures)
                 throw RunError("too many cells failed; the same command tries them again");
@@ -257,25 +253,24 @@ class StudyRun {
 
 }  // namespace
 
-StudyOutcome run_study(Channel& channel, const Study& study, const SeriesContext& context,
-                       const std::function<bool()>& interrupted) {
-    return StudyRun(channel, study, context, interrupted).run();
+StudyOutcome run_study(const Study& study, const SeriesContext& context) {
+    return StudyRun(study, context).run();
 }
 
-void list_cells(const Study& study, const Fingerprint& build, std::ostream& out) {
+void list_cells(const Study& study, const RenderOrigin& origin, std::ostream& out) {
     std::size_t done = 0, number = 0;
     const std::vector<StudyCell> cells = study_cells(study);
     for (std::size_t scene = 0; scene < study.scenes.size(); ++scene) {
         const LoadedScene loaded = load_study_scene(study, study.scenes[scene]);
         Reference reference;
         RenderRequest request;
-        const std::string key = reference_key(study, study.scenes[scene], loaded, reference, request, build);
+        const std::string key = reference_key(study, study.scenes[scene], loaded, reference, request, origin);
         out << "reference of " << study.scenes[scene].name << ": " << reference.file
             << (!study.scenes[scene].reference.empty() || fs::exists(reference.mark()) ? " (there)\n"
                                                                                        : " (to be rendered)\n");
         for (const StudyCell& cell : cells) {
             if (cell.scene != scene) continue;
-            const ReadyCell ready = ready_cell(study, cell, loaded, key, build);
+            const ReadyCell ready = ready_cell(study, cell, loaded, key, origin);
             done += ready.done();
             out << "cell " << ++number << " of " << cells.size() << ": " << cell_words(study, cell)
                 << (ready.done() ? " (done)\n" : "\n");

@@ -31,7 +31,7 @@ using StatusFrame = std::function<Status(const RenderWords&)>;
 /// Display of a render's progress on a console, until it is destroyed.
 class Progress {
   public:
-    Progress(ConsolePtr console, const Job::Budget& budget, StatusFrame frame);
+    Progress(ConsolePtr console, const Job::Budget& budget, StatusFrame frame = {});
     ~Progress() { clear(); }
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;

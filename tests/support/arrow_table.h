@@ -40,8 +40,8 @@ inline const std::vector<std::vector<std::string>> kFloors = {
      "worker/integrators/light", "worker/integrators/normals", "worker/integrators/path",
      "worker/integrators/reference"},
     {"coordinator/run", "worker/guides"},
-    {"coordinator/launch", "coordinator/shot", "coordinator/study", "worker/tools"},
-    {"worker"},
+    {"coordinator/launch", "coordinator/render", "worker/tools"},
+    {"coordinator/shot", "coordinator/study", "worker"},
     {"tests/support"},
     {"bench", "cli"}};
 

@@ -8,14 +8,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <thread>
 
-#include "common/comm/in_process_channel.h"
-#include "coordinator/run/render_run.h"
+#include "coordinator/render/render.h"
 #include "coordinator/shot/shot_run.h"
 #include "tests/support/test_scenes.h"
-#include "worker/registry.h"
-#include "worker/worker_loop.h"
+#include "worker/local_worker.h"
 
 namespace treefarm {
 namespace {
@@ -26,19 +23,7 @@ Log quiet_log() {
     return std::make_shared<spdlog::logger>("test");
 }
 
-/// Does something with a farm of one worker in this process.
-template <class Action>
-auto on_farm(const Action& action) {
-    auto channels = make_in_process_channels(2);
-    std::thread worker([&] {
-        run_worker(*channels[1], {.threads = 1, .host = "here", .fingerprint = Fingerprint().hash()}, make_renderer,
-                   quiet_log());
-    });
-    const auto outcome = action(*channels[0]);
-    dismiss_workers(*channels[0], {}, 20.0);
-    worker.join();
-    return outcome;
-}
+const LocalWorker kWorker = [](Channel& own) { run_local_worker(own, 1, Fingerprint().hash(), quiet_log()); };
 
 class Folders : public ::testing::Test {
   protected:
@@ -52,16 +37,16 @@ class Folders : public ::testing::Test {
 
     RenderRequest request(std::uint32_t spp, double checkpoint_seconds = 1e-3) const {
         RenderRequest request;
-        request.job.scene.file = "/nowhere/box.xml";
-        request.job.guiding.type = GuidingType::none;
-        request.job.budget.spp = spp;
-        request.job.farm.checkpoint_seconds = checkpoint_seconds;
-        request.job.farm.memory_check = false;
-        request.job.output.directory = folder_.string();
-        request.scene = test::cornell_box(1.0f, Vec3(0.0f));
-        test::set_film(request.scene, 8, 8);
-        request.plan = plan_effects(request.scene, request.job);
-        request.loudness = Loudness::quiet;
+        request.content.job.scene.file = "/nowhere/box.xml";
+        request.content.job.guiding.type = GuidingType::none;
+        request.content.job.budget.spp = spp;
+        request.content.job.farm.checkpoint_seconds = checkpoint_seconds;
+        request.content.job.farm.memory_check = false;
+        request.content.job.output.directory = folder_.string();
+        request.content.scene = test::cornell_box(1.0f, Vec3(0.0f));
+        test::set_film(request.content.scene, 8, 8);
+        request.content.plan = plan_effects(request.content.scene, request.content.job);
+        request.workers.local = kWorker;
         return request;
     }
 
@@ -71,14 +56,16 @@ class Folders : public ::testing::Test {
 
     RenderRequest more(std::uint32_t spp, double checkpoint_seconds = 1e-3) const {
         RenderRequest wanted = request(spp, checkpoint_seconds);
-        wanted.resumed = std::make_shared<LoadedCheckpoint>(load());
+        wanted.start.checkpoint = std::make_shared<LoadedCheckpoint>(load());
         return wanted;
     }
 
     /// `stop`: whether the render is interrupted, asked again and again.
     static RunState render(
-        const RenderRequest& request, const std::function<bool()>& stop = [] { return false; }) {
-        return on_farm([&](Channel& channel) { return run_render(channel, request, stop); }).state;
+        RenderRequest request, const std::function<bool()>& stop = [] { return false; },
+        const RenderObserver& observer = {}) {
+        request.workers.stop = stop;
+        return treefarm::render(request, observer).state;
     }
 
     /// The files of the folder by name.
@@ -112,10 +99,12 @@ TEST_F(Folders, ARenderThatNeverGoesOnChangesNothingButItsStatus) {
 
 TEST_F(Folders, WithoutCheckpointsTheOldOneStaysUntilTheRenderIsDone) {
     ASSERT_EQ(render(request(3)), RunState::done);
-    RenderRequest broken_off = more(100, 0.0);
     bool stop = false;
-    broken_off.on_pass = [&](const PassReport& pass, const CombinedImage&) { stop = pass.spp_done > 10; };
-    EXPECT_EQ(render(broken_off, [&] { return stop; }), RunState::interrupted);
+    RenderObserver observer;
+    observer.pass = [&](const PassReport& pass, const CombinedImage&) { stop = pass.spp_done > 10; };
+    EXPECT_EQ(render(
+                  more(100, 0.0), [&] { return stop; }, observer),
+              RunState::interrupted);
     EXPECT_EQ(load().state.spp(), 3u);
     EXPECT_NE(files()["log.txt"].find("that of 3 spp stays until the render is done"), std::string::npos);
 
@@ -132,7 +121,6 @@ class ShotIndex : public Folders {
         Shot shot;
         shot.directory = folder_;
         shot.frames = {1, 2, 3};
-        shot.find_checkpoint = [](const auto&...) { return nullptr; };
         shot.read_request = [&](int frame) {
             if (frame == 2) {
                 fs::remove(folder_ / "shot.json");
@@ -143,9 +131,12 @@ class ShotIndex : public Folders {
         };
         const auto log =
             std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(told_));
-        const SeriesContext context{"treefarm render", {},    std::make_shared<Console>(TerminalKind{}, false),
-                                    Loudness::quiet,   false, log};
-        return on_farm([&](Channel& channel) { return run_shot(channel, shot, context, [] { return false; }); }).state;
+        LocalFarm farm(kWorker);
+        SeriesContext context;
+        context.workers.channel = &farm.channel();
+        context.console = std::make_shared<Console>(TerminalKind{}, false);
+        context.log = log;
+        return run_shot(shot, context).state;
     }
 
     std::size_t count(const std::string& what) const {

@@ -1,13 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coordinator/run/render_run.h"
-#include "coordinator/shot/frame_record.h"
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "coordinator/render/render_request.h"
 
 namespace treefarm {
 
-/// Fills a record's figures from the run directory, if its render has ended: samples, seconds, error.
-void read_figures(const std::filesystem::path& folder, FrameRecord& record);
+/// Figures of a render that has ended.
+struct RenderFigures {
+    std::uint32_t spp = 0;
+    double seconds = 0;
+    std::optional<double> error;  ///< relative; unknown of a render of one sample, say
+    bool missed_target = false;   ///< its error is above budget.error
+    std::filesystem::path image;  ///< where it is
+};
+
+/// Figures that a run directory's summary has, as far as it has any.
+RenderFigures read_figures(const std::filesystem::path& folder);
 
 /// Whether a run directory holds the finished render of this request, by the same program: equal job, scene and
 /// fingerprint give equal images.

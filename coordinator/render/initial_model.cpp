@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/initial_model.h"
+#include "coordinator/render/initial_model.h"
 
 #include <algorithm>
 #include <filesystem>
 
-#include "cli/refuse.h"
-#include "cli/stored_model.h"
+#include "common/base/refuse.h"
 #include "common/config/job_keys.h"
 #include "common/config/job_reader.h"
 #include "common/plan/resolve/resolved_file.h"
 #include "common/plan/schedule/schedule_file.h"
+#include "coordinator/render/stored_model.h"
 
 namespace treefarm {
 
@@ -44,8 +44,8 @@ Job job_of(const fs::path& run) {
 }  // namespace
 
 void read_initial_model(RenderRequest& request) {
-    Job::Guiding& guiding = request.job.guiding;
-    const Resolved resolved = resolve(request.job, request.scene);
+    Job::Guiding& guiding = request.content.job.guiding;
+    const Resolved resolved = resolve(request.content.job, request.content.scene);
     if (guiding.initial_model.empty() || !resolved.guides) return;
     guiding.initial_model = fs::absolute(guiding.initial_model).lexically_normal().string();
     const fs::path run = guiding.initial_model, file = run / "tree.bin";
@@ -59,8 +59,8 @@ void read_initial_model(RenderRequest& request) {
     // A run whose passes taught nothing passes on its own initial model.
     const bool has_learned = teacher != passes.rend() || !before.guiding.initial_model.empty();
     if (!fs::exists(file) || !has_learned || !passes.back().guided) {
-        request.warnings.push_back(run.string() + " has no model to begin with: it " +
-                                   (fs::exists(file) ? "gave guiding up" : "has learned none"));
+        request.content.warnings.push_back(run.string() + " has no model to begin with: it " +
+                                           (fs::exists(file) ? "gave guiding up" : "has learned none"));
         guiding.initial_model.clear();
         return;
     }
@@ -69,10 +69,10 @@ void read_initial_model(RenderRequest& request) {
     guiding.initial_model_hash = stored.hash;
     guiding.initial_model_spp =
         teacher != passes.rend() ? static_cast<int>(teacher->spp) : before.guiding.initial_model_spp;
-    request.initial_model = std::move(stored.model);
-    request.initial_model->set_learns_lights(resolved.learns_lights);
-    request.initial_model->set_decides_next_event(resolved.guides && resolved.decides_next_event);
-    request.initial_model->set_image({});
+    request.start.model = std::move(stored.model);
+    request.start.model->set_learns_lights(resolved.learns_lights);
+    request.start.model->set_decides_next_event(resolved.guides && resolved.decides_next_event);
+    request.start.model->set_image({});
 }
 
 }  // namespace treefarm

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/input_kind.h"
+#include "coordinator/render/input_kind.h"
 
 #include <filesystem>
 
-#include "cli/refuse.h"
+#include "common/base/refuse.h"
 #include "common/base/text/parse_text.h"
 #include "coordinator/input/foreign_format.h"
 

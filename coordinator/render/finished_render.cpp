@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/shot/finished_frame.h"
+#include "coordinator/render/finished_render.h"
 
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -42,15 +42,17 @@ std::string read_text(const fs::path& path) {
 
 }  // namespace
 
-void read_figures(const fs::path& folder, FrameRecord& record) {
+RenderFigures read_figures(const fs::path& folder) {
+    RenderFigures figures;
     const Json summary = read_summary(folder);
-    record.spp = static_cast<std::uint32_t>(number_at(summary, "spp"));
-    record.seconds = number_at(summary, "seconds");
-    record.image = folder / "image.exr";
+    figures.spp = static_cast<std::uint32_t>(number_at(summary, "spp"));
+    figures.seconds = number_at(summary, "seconds");
+    figures.image = folder / "image.exr";
     if (const auto error = summary.find("image_error"); error != summary.end() && error->is_object())
-        if (error->contains("relative")) record.error = number_at(*error, "relative");
+        if (error->contains("relative")) figures.error = number_at(*error, "relative");
     if (const auto target = summary.find("target"); target != summary.end() && target->is_object())
-        record.missed_target = target->contains("reached") && (*target)["reached"] == false;
+        figures.missed_target = target->contains("reached") && (*target)["reached"] == false;
+    return figures;
 }
 
 bool holds_result(const fs::path& folder) {
@@ -60,9 +62,9 @@ bool holds_result(const fs::path& folder) {
 bool holds_result_of(const fs::path& folder, const RenderRequest& request) {
     if (!holds_result(folder)) return false;
     const Json summary = read_summary(folder);
-    return read_text(folder / "job.toml") == job_without_output(request.job) &&
-           text_at(summary, "fingerprint") == hash_text(request.fingerprint.hash()) &&
-           text_at(summary, "scene_hash") == hash_text(content_hash(encode_scene(request.scene)));
+    return read_text(folder / "job.toml") == job_without_output(request.content.job) &&
+           text_at(summary, "fingerprint") == hash_text(request.origin.fingerprint.hash()) &&
+           text_at(summary, "scene_hash") == hash_text(content_hash(encode_scene(request.content.scene)));
 }
 
 bool restore_output(const fs::path& folder, const std::string& file) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/stored_model.h"
+#include "coordinator/render/stored_model.h"
 
-#include "cli/refuse.h"
 #include "common/base/files/read_bytes.h"
 #include "common/base/hash.h"
+#include "common/base/refuse.h"
 
 namespace treefarm {
 

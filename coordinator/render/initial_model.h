@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coordinator/run/render_run.h"
+#include "coordinator/render/render_request.h"
 
 namespace treefarm {
 

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/render/passes_alone.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/plan/schedule/kernel.h"
+#include "common/scene/pack/scene_codec.h"
+
+namespace treefarm {
+
+namespace {
+
+/// Whether the checkpoint is one of these passes: their kernels may not be known yet.
+bool begins(const std::vector<PassPlan>& plans, const RenderState& state) {
+    const auto alike = [](const PassReport& done, PassPlan plan) {
+        plan.kernel = done.plan.kernel;
+        return done.plan == plan;
+    };
+    return state.reports.size() <= plans.size() &&
+           std::equal(state.reports.begin(), state.reports.end(), plans.begin(), alike);
+}
+
+/// The state after the pass before, as far as a checkpoint knows it; otherwise that before any pass.
+RenderState nearest_state(const RenderRequest& request, const std::vector<PassPlan>& plans, std::uint32_t pass) {
+    if (request.start.checkpoint && begins(plans, request.start.checkpoint->state)) {
+        RenderState& state = request.start.checkpoint->state;
+        // Unless the pass taught it anything: of next event an unguided one does.
+        const PassPlan* const last = state.reports.empty() ? nullptr : &state.reports.back().plan;
+        const bool has_its_tree = last && state.reports.size() == pass + 1 && !last->record &&
+                                  (last->guided || !request.content.plan.job.decides_next_event);
+        if (state.reports.size() <= pass || has_its_tree) return std::move(state);
+    }
+    return starting_state(request);
+}
+
+/// The model of a pass, which may decide on next event alone, learned by rendering the passes before it, but for those
+/// that a checkpoint knows.
+AnyModel learn_model(const RenderRequest& request, const std::vector<PassPlan>& plans, std::uint32_t pass,
+                     const TellMessage& tell) {
+    RenderState state = nearest_state(request, plans, pass);
+    const bool learns = request.content.plan.job.guides || request.content.plan.job.decides_next_event;
+    if (state.reports.size() >= pass || !learns) return std::move(state.tree);
+    bool enough = false;
+    PassHooks hooks;
+    hooks.interrupted = [&] { return enough; };
+    hooks.on_pass = [&](const PassReport& report, const CombinedImage&) { enough = report.plan.index + 1 == pass; };
+    return render_without_files(request, listed_passes(plans), std::move(state), hooks, tell).tree;
+}
+
+}  // namespace
+
+RenderResult render_without_files(const RenderRequest& request, const PassChooser& passes, RenderState state,
+                                  const PassHooks& hooks, const TellMessage& tell) {
+    const Resolved& job = request.content.plan.job;
+    const Film& film = request.content.scene.film;
+    LocalFarm here(request.workers.local);
+    Farm farm(here.channel(), job, encode_scene(request.content.scene), request.origin.fingerprint.hash(),
+              make_log("treefarm", {}, tell));
+    farm.gather(request.workers.stop);
+    farm.allow_negative(film.is_signed());
+    return run_passes(farm, job, passes, std::move(state), film.width, film.height, hooks);
+}
+
+std::vector<PassPlan> known_passes(const RenderRequest& request) {
+    const RenderContent& content = request.content;
+    if (!content.schedule.empty()) return content.schedule;
+    return has_open_budget(content.plan.job) ? std::vector<PassPlan>() : plan_passes(content.plan.job);
+}
+
+std::pair<AnyModel, PassPlan> model_and_pass(const RenderRequest& request, const std::vector<PassPlan>& plans,
+                                             std::uint32_t index, const TellMessage& tell) {
+    AnyModel model = learn_model(request, plans, index, tell);
+    PassPlan pass = plans[index];
+    pass.kernel = kernel_of(request.content.plan.job, pass, facts_of(model));
+    return {std::move(model), pass};
+}
+
+}  // namespace treefarm

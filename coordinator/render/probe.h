@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/base/log.h"
+#include "coordinator/render/render_request.h"
+
+namespace treefarm {
+
+/// How long a probe usually takes, seconds of rendering.
+inline constexpr double kProbeSeconds = 5;
+
+/// The first passes of a render.
+struct Probe {
+    RenderHistory state;    ///< after them
+    bool complete = false;  ///< they are all that the job asks for
+    bool interrupted = false;
+    unsigned threads = 0;  ///< of the worker, if whoever has it says so
+};
+
+/// Renders the first passes by a worker in this process, as many as fit into so many seconds (a few more where they
+/// would tell nothing), writes nothing and keeps no image. Throws RunError.
+Probe run_probe(const RenderRequest& request, double seconds, const TellMessage& tell = {});
+
+}  // namespace treefarm

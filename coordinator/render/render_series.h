@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <set>
+
+#include "coordinator/render/render.h"
+#include "coordinator/words/progress.h"
+
+namespace treefarm {
+
+/// How a series of renders was started, and where it speaks.
+struct SeriesContext {
+    RenderOrigin origin;
+    RenderWorkers workers;    ///< at the other end of a channel
+    RenderObserver observer;  ///< of each render
+    ConsolePtr console;       ///< for how far the series is
+    Log log;                  ///< of the series
+    bool overwrite = false;   ///< other results that its folder holds
+};
+
+/// The observer, and how far the render is on a console; both outlive it.
+RenderObserver shown_by(Progress& progress, const RenderObserver& observer);
+
+/// Renders one after another in one allocation: workers stay, and are told to join the next one.
+class RenderSeries {
+  public:
+    explicit RenderSeries(const SeriesContext& context) : context_(context) {}
+
+    /// Runs the request in a folder. What happens within stands in the folder's log.txt; the console says how far it is
+    /// as `frame` has it. `pass`: RenderObserver::pass. Throws InputError as treefarm::render() does.
+    RenderOutcome render(RenderRequest& request, const std::filesystem::path& folder, StatusFrame frame,
+                         const decltype(RenderObserver::pass)& pass = {});
+
+    /// Workers that were given up and are not back.
+    const std::set<int>& lost_peers() const { return turn_.absent; }
+    /// Nobody is left to render with.
+    bool has_lost_all() const;
+
+  private:
+    const SeriesContext& context_;
+    JobTurn turn_;
+};
+
+}  // namespace treefarm
