@@ -69,8 +69,9 @@ std::vector<MapReport> write_maps(const TraceScene& scene, const AnyModel& tree,
 }
 
 std::filesystem::path picture_folder(const InspectOptions& options) {
-    const std::filesystem::path folder = options.output.empty() ? std::filesystem::path(options.directory) / "inspect"
-                                                                : std::filesystem::path(options.output);
+    const std::filesystem::path folder = options.output.empty()
+                                             ? std::filesystem::path(options.directory) / kInspectFolder
+                                             : std::filesystem::path(options.output);
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error)

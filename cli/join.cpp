@@ -12,9 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "cli/interrupt.h"
@@ -25,6 +23,7 @@
 #include "common/base/timer.h"
 #include "common/comm/join_ticket.h"
 #include "common/comm/tcp_channel.h"
+#include "common/runs/run_json.h"
 #include "worker/integrators/registry.h"
 #include "worker/worker_loop.h"
 
@@ -52,9 +51,9 @@ fs::path ticket_file(const JoinOptions& options) {
     if (!options.file.empty()) return options.file;
     const fs::path run = options.run;
     if (fs::exists(run / kTicketFileName)) return run / kTicketFileName;
-    if (!fs::exists(run / "job.toml"))
+    if (!fs::exists(run / kJobFile))
         refuse(run, "is no run directory", "name the folder that a render writes its files to");
-    if (fs::exists(run / "summary.json"))
+    if (fs::exists(run / kSummaryFile))
         refuse(run, "is over: there is nothing to join", "treefarm resume adds samples to it");
     refuse(run, "takes no workers in: it was started without farm.join, or was killed",
            "start it with --set farm.join=true");
@@ -62,9 +61,7 @@ fs::path ticket_file(const JoinOptions& options) {
 
 /// A render that will not come back.
 bool is_done(const JoinOptions& options) {
-    std::ifstream file(fs::path(options.run) / "summary.json", std::ios::binary);
-    const auto summary = nlohmann::json::parse(file, nullptr, false);
-    return !options.run.empty() && summary.is_object() && summary.value("state", "") == "done";
+    return !options.run.empty() && text_in(read_run_json(fs::path(options.run) / kSummaryFile), "state") == "done";
 }
 
 /// A worker that joins a run, and again after each loss of its connection.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cli/launched_command.h"
+#include "common/runs/run_files.h"
 #include "coordinator/folder_lock.h"
 #include "coordinator/launch/life_status.h"
 
@@ -21,7 +22,7 @@ class LaunchFolder {
     const std::filesystem::path& run() const { return run_; }
     std::filesystem::path own() const { return run_ / kLaunchFolder; }
     /// Where the coordinator's sign of life goes: a whole path, for other hosts.
-    std::filesystem::path life_file() const { return std::filesystem::absolute(own() / "status.json"); }
+    std::filesystem::path life_file() const { return std::filesystem::absolute(own() / kStatusFile); }
 
     /// The sign of life that is there; sets `readable` to whether it could be looked for.
     std::optional<LifeStatus> life(bool& readable) const;

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace treefarm {
@@ -18,9 +16,6 @@ enum class FolderContent {
     other    ///< none of ours
 };
 FolderContent folder_content(const std::filesystem::path& folder);
-
-/// Names of the files that a render leaves in its folder.
-std::span<const std::string_view> run_file_names();
 
 /// Name of the place where an earlier run lies aside in its folder: "previous", "previous-2", ... by number from 1.
 std::string previous_name(int number);

@@ -6,9 +6,6 @@
 
 namespace treefarm {
 
-/// A file that is locked where a folder itself cannot be: on NFS.
-inline constexpr const char* kLockFileName = "lock";
-
 /// Keeps a folder for one program at a time, until it is destroyed or its process ends. Not to be moved.
 class FolderLock {
   public:

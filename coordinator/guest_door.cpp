@@ -4,6 +4,7 @@
 #include "common/comm/join_ticket.h"
 #include "common/comm/tcp_channel.h"
 #include "common/config/parse_text.h"
+#include "common/runs/run_files.h"
 
 namespace treefarm {
 

@@ -101,11 +101,4 @@ void fill_from_collector(PassReport& report, const Collector& collector);
 /// seconds.idle, once seconds.all and the figures are there.
 void count_idle(PassReport& report);
 
-/// passes.csv: the header line and the line of a pass, without line ends.
-std::string pass_csv_header();
-std::string pass_csv_line(const PassReport& report);
-
-/// "firm", "noisy", "learning", or empty.
-const char* trust_name(Trust trust);
-
 }  // namespace treefarm

@@ -311,7 +311,7 @@ class RenderRun {
     /// The image's file, where a person looks for it.
     std::filesystem::path image_file() const {
         const std::string& asked = request_.job.output.file;
-        return asked.empty() ? directory_.path() / "image.exr" : std::filesystem::path(asked);
+        return asked.empty() ? directory_.path() / kImageFile : std::filesystem::path(asked);
     }
 
     bool missed_target() const {
@@ -329,7 +329,7 @@ class RenderRun {
     std::string replay_options() const {
         const std::filesystem::path run = std::filesystem::absolute(directory_.path());
         std::string options = " --run-dir " + shell_quoted(run.string());
-        if (request_.schedule.empty()) options += " --schedule " + shell_quoted((run / "schedule.toml").string());
+        if (request_.schedule.empty()) options += " --schedule " + shell_quoted((run / kScheduleFile).string());
         return options;
     }
 

@@ -16,6 +16,7 @@
 #include "common/image/atomic_file.h"
 #include "common/image/exr.h"
 #include "common/plan/effects.h"
+#include "common/runs/run_files.h"
 #include "coordinator/checkpoint/run_checkpoints.h"
 #include "coordinator/file_writer.h"
 #include "coordinator/last_files.h"
@@ -43,7 +44,7 @@ class RunDirectory {
     RunDirectory(const Job& job, RunFacts facts, const EffectPlan& plan, const RunDirectoryOptions& options = {});
 
     const std::filesystem::path& path() const { return folder_.path(); }
-    std::filesystem::path log_file() const { return path() / "log.txt"; }
+    std::filesystem::path log_file() const { return path() / kLogFile; }
     std::size_t passes() const { return passes_.size(); }  ///< that are finished
 
     /// What is known before the render, in the place of what the run goes on from had: once it goes on. Throws as the

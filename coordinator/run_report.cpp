@@ -4,88 +4,18 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "common/base/hash.h"
 #include "common/base/host.h"
 #include "common/plan/plan_text.h"
+#include "coordinator/run/pass_record.h"
 #include "coordinator/tail_report.h"
 
 namespace treefarm {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-/// Null where something is not known. What is infinite becomes null by itself.
-Json error_json(const ErrorEstimate& error) {
-    if (!error.known) return nullptr;
-    const auto end = [&](double value) { return error.has_interval ? Json(value) : Json(); };
-    return {{"relative", error.relative()},
-            {"low", end(error.relative_low())},
-            {"high", end(error.relative_high())},
-            {"rmse", error.rmse},
-            {"rmse_low", end(error.low)},
-            {"rmse_high", end(error.high)},
-            {"mean", error.mean}};
-}
-
-Json forecast_json(const ErrorForecast& forecast) {
-    return {{"relative_error", forecast.relative_error},
-            {"spp", forecast.spp},
-            {"seconds", forecast.seconds},
-            {"trust", trust_name(forecast.trust)}};
-}
-
-Json pass_json(const PassReport& r) {
-    return {{"pass", r.plan.index},
-            {"spp", r.plan.spp},
-            {"spp_done", r.spp_done},
-            {"seconds", r.seconds.all},
-            {"phase_seconds", r.seconds.phases()},
-            {"run_seconds", r.run_seconds},
-            {"core_seconds", r.core_seconds()},
-            {"stuv", r.variance.stuv},
-            {"stuv_trimmed", r.variance.stuv_trimmed},
-            {"stuv_ppg", r.variance.stuv_ppg},
-            {"ttuv", r.ttuv()},
-            {"image_error", error_json(r.error)},
-            {"efficiency", r.efficiency()},
-            {"halving", forecast_json(r.halving)},
-            {"rays_per_second", r.rays_per_second()},
-            {"nonzero_share", r.nonzero_share()},
-            {"invalid_samples", r.stats.invalid_samples},
-            {"tree_nodes", r.tree.nodes},
-            {"tree_regions", r.tree.regions},
-            {"guided", r.plan.guided},
-            {"guiding_worth", r.guiding_worth.worth},
-            {"guiding_worth_low", r.guiding_worth.low()},
-            {"guiding_worth_high", r.guiding_worth.high()},
-            {"next_event_n", r.next_event_samples()},
-            {"next_event_low", r.refine.next_event.low},
-            {"next_event_saved", r.refine.next_event.saved},
-            {"split", r.plan.split},
-            {"splitting_quietens", r.splitting_gain.variance},
-            {"splitting_rays", r.splitting_gain.rays},
-            {"splitting_found", r.splitting_gain.found},
-            {"light_subpaths", r.has_light_subpaths()},
-            {"light_subpaths_quieten", r.light_subpath_gain.noise},
-            {"light_subpaths_rays", r.light_subpath_gain.rays},
-            {"camera_paths_found", r.light_subpath_gain.found},
-            {"emitters", r.emitters},
-            {"emitters_of_half", r.emitters_of_half},
-            {"tree_views", r.tree.views},
-            {"tree_cells", r.tree.cells},
-            {"tree_bytes", r.tree.bytes},
-            {"tree_memory", r.tree.memory},
-            {"update_bytes", r.update_bytes},
-            {"splat_bytes", r.splat_bytes},
-            {"trace_seconds",
-             {{"min", r.seconds.trace.min},
-              {"mean", r.seconds.trace.mean},
-              {"max", r.seconds.trace.max},
-              {"max_worker", r.seconds.trace.max_worker}}}};
-}
+using Json = RunJson;
 
 Json build_json(const Fingerprint& build) {
     return {{"source", build.source},
@@ -219,12 +149,12 @@ std::string status_json(const RunFacts& facts, const RenderProgress& progress, d
                    {"fraction", progress.fraction},
                    {"elapsed_seconds", elapsed_seconds},
                    {"seconds_left", left},
-                   {"image_error", error_json(progress.error)},
+                   {"image_error", error_record(progress.error)},
                    {"workers", progress.workers},
                    {"rays", progress.rays},
                    {"run_seconds", progress.run_seconds}};
-    if (last_pass) status["halving"] = forecast_json(last_pass->halving);
-    if (last_pass && last_pass->target.relative_error > 0) status["target"] = forecast_json(last_pass->target);
+    if (last_pass) status["halving"] = forecast_record(last_pass->halving);
+    if (last_pass && last_pass->target.relative_error > 0) status["target"] = forecast_record(last_pass->target);
     if (farm) status["farm"] = farm_json(*farm, last_pass);
     add_writer(status, facts);
     return text_of(status);
@@ -257,8 +187,8 @@ std::string summary_json(const Job& job, const RunFacts& facts, const RenderResu
                     {"aov_hash", result.aovs->empty() ? "" : hash_text(result.aov_hash)},
                     {"tree_hash", result.spp > 0 ? hash_text(result.tree_hash) : ""},
                     {"tree_file_hash", end.tree_file_hash},
-                    {"image_error", result.passes.empty() ? Json() : error_json(result.passes.back().error)},
-                    {"halving", result.passes.empty() ? Json() : forecast_json(result.passes.back().halving)},
+                    {"image_error", result.passes.empty() ? Json() : error_record(result.passes.back().error)},
+                    {"halving", result.passes.empty() ? Json() : forecast_record(result.passes.back().halving)},
                     {"pass_weights", result.image->weight}};
     add_tails(summary, tail_report(*result.image, result.passes));
     if (job.budget.error > 0 && !result.passes.empty())
@@ -271,7 +201,7 @@ std::string summary_json(const Job& job, const RunFacts& facts, const RenderResu
         summary["approximations"].push_back(approximation_text(approximation));
     summary["passes"] = Json::array();
     for (const PassReport& report : result.passes)
-        summary["passes"].push_back(pass_json(report));
+        summary["passes"].push_back(pass_record(report, kInSummary));
     if (farm) summary["farm"] = farm_json(*farm, result.passes.empty() ? nullptr : &result.passes.back());
     return text_of(summary);
 }

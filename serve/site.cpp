@@ -159,7 +159,7 @@ SiteResponse Site::metrics() {
 }
 
 SiteResponse Site::picture(const SiteRequest& request, const std::string& run) const {
-    const std::string path = joined_path(run, "preview.png");
+    const std::string path = joined_path(run, kPreviewFile);
     if (!is_run(folder_, run)) return refusal(404, "there is no such run");
     const auto version = folder_.version(path);
     if (!version) return refusal(404, "there is no picture yet");

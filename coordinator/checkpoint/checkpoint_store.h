@@ -12,12 +12,10 @@
 #include <string>
 #include <vector>
 
+#include "common/runs/run_files.h"
 #include "coordinator/checkpoint/state_codec.h"
 
 namespace treefarm {
-
-/// Folder of the checkpoints in a run directory.
-inline constexpr const char* kCheckpointFolder = "checkpoint";
 
 /// A checkpoint as it was read.
 struct LoadedCheckpoint {

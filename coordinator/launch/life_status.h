@@ -8,9 +8,6 @@
 
 namespace treefarm {
 
-/// Folder in a run directory that `treefarm launch` writes to.
-inline constexpr const char* kLaunchFolder = "launch";
-
 /// What a coordinator is about.
 enum class LifePhase : std::uint8_t {
     start,    ///< nothing was read yet

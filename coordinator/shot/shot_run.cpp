@@ -10,6 +10,7 @@
 #include "common/base/reading_notice.h"
 #include "common/config/frames.h"
 #include "common/image/atomic_file.h"
+#include "common/runs/run_files.h"
 #include "coordinator/folder_content.h"
 #include "coordinator/folder_lock.h"
 #include "coordinator/last_files.h"
@@ -98,7 +99,7 @@ class ShotRun {
     void write_index() const {
         const std::string text =
             shot_json(context_.command, records_).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-        write_file_atomically(shot_.directory / "shot.json",
+        write_file_atomically(shot_.directory / kShotFile,
                               {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     }
 
@@ -166,7 +167,7 @@ class ShotRun {
                 record.state = FrameState::interrupted;
                 return;
             default:
-                fail(record, "see " + (folder / "log.txt").string());
+                fail(record, "see " + (folder / kLogFile).string());
         }
     }
 
@@ -236,7 +237,7 @@ class ShotRun {
     const Log log_;
     const std::function<bool()>& interrupted_;
     std::vector<FrameRecord> records_;
-    std::vector<LastFile> index_ = {{"shot.json", [this] { write_index(); }, "", true}};
+    std::vector<LastFile> index_ = {{kShotFile, [this] { write_index(); }, "", true}};
     std::map<std::string, int> outputs_;
     std::set<std::string> told_;
     SeriesProgress progress_;

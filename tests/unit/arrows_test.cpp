@@ -19,6 +19,7 @@ const fs::path kRoot = TREEFARM_SOURCE_DIR;
 
 /// Rooms by level (docs/design/architecture.md): a room includes itself and rooms of lower levels, never its siblings.
 const std::map<std::string, int> kLevels = {{"common/base", 0},
+                                            {"common/runs", 1},
                                             {"common/math", 1},
                                             {"common/image", 2},
                                             {"common/film", 3},

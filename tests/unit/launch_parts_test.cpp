@@ -14,6 +14,7 @@
 #include "cli/host_keys.h"
 #include "cli/host_probe.h"
 #include "common/comm/run_key.h"
+#include "common/runs/run_files.h"
 #include "coordinator/folder_content.h"
 #include "coordinator/launch/host_pool.h"
 #include "coordinator/launch/sign_of_life.h"
