@@ -13,6 +13,7 @@
 #include "common/image/png.h"
 #include "common/math/next_event_sums.h"
 #include "common/metrics/false_colour.h"
+#include "common/runs/run_files.h"
 #include "worker/tools/inspect_film.h"
 
 namespace treefarm {

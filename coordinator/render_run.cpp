@@ -12,6 +12,7 @@
 #include "common/config/parse_text.h"
 #include "common/plan/learning.h"
 #include "common/plan/plan_text.h"
+#include "common/runs/run_files.h"
 #include "common/scene/lint/lint.h"
 #include "common/scene/pack/scene_codec.h"
 #include "coordinator/decision_text.h"

@@ -25,20 +25,16 @@ Json build_json(const Fingerprint& build) {
             {"program", hash_text(build.program)}};
 }
 
-const char* member_state_name(MemberState state) {
-    switch (state) {
-        case MemberState::present:
-            return "present";
-        case MemberState::lost:
-            return "lost";
-        case MemberState::refused:
-            return "refused";
-        case MemberState::left:
-            return "left";
-        case MemberState::barred:
-            return "barred";
-    }
-    return "";
+/// In the order of MemberState and RunState.
+constexpr const char* kMemberStates[] = {"present", "lost", "refused", "left", "barred"};
+constexpr const char* kRunStates[] = {"running", "done", "interrupted", "failed"};
+
+const char* state_name(MemberState state) {
+    return kMemberStates[static_cast<std::size_t>(state)];
+}
+
+const char* state_name(RunState state) {
+    return kRunStates[static_cast<std::size_t>(state)];
 }
 
 /// UTC, to the minute.
@@ -81,7 +77,7 @@ Json worker_json(const Member& member, const PassReport* last) {
     return {{"worker", member.peer},
             {"host", member.hello.host},
             {"threads", member.hello.threads},
-            {"state", member_state_name(member.state)},
+            {"state", state_name(member.state)},
             {"losses", losses(member)},
             {"paths_per_second", speed ? Json(*speed) : Json()},
             {"rays", member.progress.rays},
@@ -124,24 +120,10 @@ Json crop_json(const CropWindow& crop) {
 
 }  // namespace
 
-const char* run_state_name(RunState state) {
-    switch (state) {
-        case RunState::running:
-            return "running";
-        case RunState::done:
-            return "done";
-        case RunState::interrupted:
-            return "interrupted";
-        case RunState::failed:
-            return "failed";
-    }
-    return "";
-}
-
 std::string status_json(const RunFacts& facts, const RenderProgress& progress, double elapsed_seconds, const Farm* farm,
                         const PassReport* last_pass) {
     const double left = progress.fraction > 0 ? elapsed_seconds * (1 - progress.fraction) / progress.fraction : 0.0;
-    Json status = {{"state", run_state_name(RunState::running)},
+    Json status = {{"state", state_name(RunState::running)},
                    {"pass", progress.pass},
                    {"passes", progress.pass_count},
                    {"spp_done", progress.spp_done},
@@ -161,14 +143,14 @@ std::string status_json(const RunFacts& facts, const RenderProgress& progress, d
 }
 
 std::string status_json(const RunFacts& facts, RunState state, std::uint32_t spp_done, double elapsed_seconds) {
-    Json status = {{"state", run_state_name(state)}, {"spp_done", spp_done}, {"elapsed_seconds", elapsed_seconds}};
+    Json status = {{"state", state_name(state)}, {"spp_done", spp_done}, {"elapsed_seconds", elapsed_seconds}};
     add_writer(status, facts);
     return text_of(status);
 }
 
 std::string summary_json(const Job& job, const RunFacts& facts, const RenderResult& result, const Farm* farm,
                          const RunEnd& end) {
-    Json summary = {{"state", run_state_name(end.state)},
+    Json summary = {{"state", state_name(end.state)},
                     {"version", kProgramVersion},
                     {"command", facts.command},
                     {"scene", job.scene.file},

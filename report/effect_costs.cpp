@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/error.h"
+#include "common/runs/run_files.h"
 #include "report/figure_text.h"
 #include "report/html.h"
 

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "common/base/error.h"
+#include "common/runs/run_json.h"
 
 namespace treefarm {
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/base/error.h"
+#include "common/runs/run_json.h"
 
 namespace treefarm {
 

@@ -3,11 +3,11 @@
 
 #include <filesystem>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "common/runs/run_json.h"
 #include "report/provenance.h"
 #include "report/statistics.h"
 
@@ -35,7 +35,7 @@ struct PassRow {
 };
 
 /// A pass as summary.json and cell.json list it, with what both have. Throws RunJson::exception.
-PassRow read_pass(const RunJson& json);
+PassRow read_pass(const nlohmann::ordered_json& json);
 
 struct CellResult {
     std::string scene, method;

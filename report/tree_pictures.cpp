@@ -8,6 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/image/read_bytes.h"
+#include "common/runs/run_files.h"
 #include "report/html.h"
 
 namespace treefarm {

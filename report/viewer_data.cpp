@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/image/exr.h"
+#include "common/runs/run_files.h"
 #include "report/html.h"
 
 namespace treefarm {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/runs/run_files.h"
+
 namespace treefarm {
 
 namespace {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/runs/run_files.h"
 #include "serve/file_json.h"
 #include "serve/metrics_text.h"
 #include "serve/page_assets.h"

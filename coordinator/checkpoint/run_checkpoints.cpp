@@ -6,6 +6,7 @@
 
 #include "common/base/timer.h"
 #include "common/config/parse_text.h"
+#include "common/runs/run_files.h"
 #include "coordinator/last_files.h"
 
 namespace treefarm {

@@ -14,18 +14,10 @@ struct Figure {
     bool in_table = true;  ///< passes.csv has a field for it, empty where this is false
 };
 
+/// Names in the order of Trust.
 const char* trust_name(Trust trust) {
-    switch (trust) {
-        case Trust::none:
-            return "";
-        case Trust::learning:
-            return "learning";
-        case Trust::noisy:
-            return "noisy";
-        case Trust::firm:
-            return "firm";
-    }
-    return "";
+    constexpr const char* kNames[] = {"", "noisy", "learning", "firm"};
+    return kNames[static_cast<std::size_t>(trust)];
 }
 
 /// The figures of a pass, in the order of kPassFigures.

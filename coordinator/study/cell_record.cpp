@@ -3,6 +3,7 @@
 
 #include "common/metrics/error_metrics.h"
 #include "common/metrics/flip/measure_flip.h"
+#include "common/runs/run_json.h"
 #include "coordinator/run/pass_record.h"
 
 namespace treefarm {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <vector>
 
 #include "common/image/image.h"
-#include "common/runs/run_json.h"
 #include "coordinator/pass_loop.h"
 
 namespace treefarm {
@@ -17,6 +17,6 @@ struct MeasuredPass {
 
 /// Part of a cell's cell.json about its render: every pass with its figures and its true errors against the reference,
 /// and FLIP of the last (docs/use/studies.md).
-RunJson render_record(const std::vector<MeasuredPass>& passes, const RgbImage& reference);
+nlohmann::ordered_json render_record(const std::vector<MeasuredPass>& passes, const RgbImage& reference);
 
 }  // namespace treefarm
