@@ -10,6 +10,7 @@ namespace treefarm {
 /// Places of a key, as bits beside those of a figure.
 inline constexpr unsigned kInStatus = 8;  ///< status.json
 inline constexpr unsigned kInLife = 16;   ///< launch/status.json
+inline constexpr unsigned kInStudy = 32;  ///< study.json, as far as it is read here
 inline constexpr unsigned kInBoth = kInSummary | kInStatus;
 
 /// A key of a JSON file of a run directory.
@@ -107,6 +108,7 @@ inline constexpr RunKeyRow kRunKeys[] = {
     {"time", "Unix s", kInStatus, "time of this writing"},
     {"phase", "word", kInLife, "what the coordinator does"},
     {"code", "number", kInLife, "exit code, once it is known"},
+    {"study", "path", kInStudy, "file that the study was read from"},
     {"flip", "number", kInCell, "mean FLIP of the image against the reference"},
     {"passes.measured", "object", kInCell, "true errors of the pass against the reference"},
 };
