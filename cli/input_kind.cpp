@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "cli/refuse.h"
-#include "common/config/parse_text.h"
+#include "common/base/text/parse_text.h"
 #include "common/runs/run_files.h"
-#include "common/scene/readers/foreign_format.h"
+#include "coordinator/input/foreign_format.h"
 
 namespace treefarm {
 

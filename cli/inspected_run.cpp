@@ -7,7 +7,7 @@
 #include "cli/stored_model.h"
 #include "common/base/hash.h"
 #include "common/config/job_reader.h"
-#include "common/plan/schedule_file.h"
+#include "common/plan/schedule/schedule_file.h"
 #include "common/runs/run_json.h"
 #include "common/scene/pack/scene_codec.h"
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <numeric>
 
-#include "common/plan/policy.h"
+#include "common/base/policy.h"
 
 namespace treefarm {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <tuple>
 
-#include "common/plan/policy.h"
+#include "common/base/policy.h"
 
 namespace treefarm {
 

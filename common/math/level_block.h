@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "common/plan/policy.h"
+#include "common/base/policy.h"
 
 namespace treefarm {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "common/runs/run_json.h"
-#include "coordinator/pass_report.h"
+#include "coordinator/passes/pass_report.h"
 
 namespace treefarm {
 

@@ -4,9 +4,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "common/base/files/atomic_file.h"
 #include "common/base/hash.h"
-#include "common/image/atomic_file.h"
-#include "common/plan/resolved_file.h"
+#include "common/plan/resolve/resolved_file.h"
 #include "common/runs/run_json.h"
 #include "common/scene/pack/scene_codec.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/study/study_folder.h"
 
-#include "common/base/printable.h"
+#include "common/base/text/printable.h"
 #include "common/runs/run_json.h"
-#include "coordinator/folder_content.h"
+#include "coordinator/run/folder_content.h"
 
 namespace treefarm {
 

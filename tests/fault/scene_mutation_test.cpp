@@ -8,8 +8,8 @@
 
 #include "common/config/job_reader.h"
 #include "common/scene/pack/scene_codec.h"
-#include "common/scene/readers/load.h"
-#include "common/scene/readers/meshes/obj_file.h"
+#include "coordinator/input/load.h"
+#include "coordinator/input/meshes/obj_file.h"
 #include "tests/support/support.h"
 
 namespace treefarm {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "common/scene/readers/meshes/ply_file.h"
+#include "coordinator/input/meshes/ply_file.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/support/mesh_bytes.h"
 

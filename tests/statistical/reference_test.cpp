@@ -8,7 +8,7 @@
 
 #include "common/config/job_reader.h"
 #include "common/metrics/z_test.h"
-#include "common/scene/readers/load.h"
+#include "coordinator/input/load.h"
 #include "tests/support/chi_square.h"
 #include "tests/support/rendered.h"
 #include "tests/support/support.h"

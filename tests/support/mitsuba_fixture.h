@@ -9,7 +9,7 @@
 #include <map>
 #include <string>
 
-#include "common/scene/readers/load.h"
+#include "coordinator/input/load.h"
 
 namespace treefarm::test {
 

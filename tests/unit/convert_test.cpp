@@ -7,12 +7,12 @@
 #include <fstream>
 #include <limits>
 
+#include "cli/picture_of_layer.h"
+#include "cli/tonemap.h"
 #include "common/base/error.h"
 #include "common/image/exr.h"
-#include "common/image/picture_of_layer.h"
 #include "common/image/png.h"
-#include "common/image/stored_image.h"
-#include "common/image/tonemap.h"
+#include "coordinator/input/images/stored_image.h"
 #include "tests/support/command.h"
 
 namespace treefarm {

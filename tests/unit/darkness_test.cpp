@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "common/scene/lint/lint.h"
-#include "common/scene/readers/load.h"
+#include "coordinator/input/lint/lint.h"
+#include "coordinator/input/load.h"
 #include "tests/support/support.h"
 #include "tests/support/test_scenes.h"
 

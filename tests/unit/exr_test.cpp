@@ -16,7 +16,7 @@
 #include <limits>
 
 #include "common/base/error.h"
-#include "common/image/atomic_file.h"
+#include "common/base/files/atomic_file.h"
 
 namespace treefarm {
 namespace {

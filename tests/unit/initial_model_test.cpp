@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "common/config/job_reader.h"
-#include "common/plan/policy_table.h"
-#include "common/plan/resolved_file.h"
+#include "common/plan/resolve/policy_table.h"
+#include "common/plan/resolve/resolved_file.h"
 #include "tests/support/command.h"
 #include "tests/support/support.h"
 

@@ -11,7 +11,7 @@
 #include <sstream>
 #include <thread>
 
-#include "common/base/printable.h"
+#include "common/base/text/printable.h"
 
 namespace treefarm {
 namespace {

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "common/config/job_reader.h"
-#include "common/scene/readers/load.h"
+#include "coordinator/input/load.h"
 
 namespace treefarm {
 namespace {

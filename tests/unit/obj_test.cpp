@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "common/scene/readers/load.h"
-#include "common/scene/readers/meshes/obj_file.h"
-#include "common/scene/readers/meshes/triangulate.h"
+#include "coordinator/input/load.h"
+#include "coordinator/input/meshes/obj_file.h"
+#include "coordinator/input/meshes/triangulate.h"
 
 namespace treefarm {
 namespace {

@@ -9,10 +9,10 @@
 #include <fstream>
 
 #include "common/base/error.h"
-#include "common/image/color_channels.h"
 #include "common/image/exr.h"
-#include "common/image/hdr.h"
-#include "common/image/stored_image.h"
+#include "coordinator/input/images/color_channels.h"
+#include "coordinator/input/images/hdr.h"
+#include "coordinator/input/images/stored_image.h"
 
 namespace treefarm {
 namespace {

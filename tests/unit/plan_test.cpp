@@ -7,11 +7,11 @@
 #include "common/config/effect_switches.h"
 #include "common/config/job_reader.h"
 #include "common/guiding/statistics/cell_sums.h"
-#include "common/plan/effect_table.h"
-#include "common/plan/learning.h"
-#include "common/plan/plan_text.h"
-#include "common/plan/texture_mean.h"
-#include "common/scene/model/material_traits.h"
+#include "common/plan/effects/effect_table.h"
+#include "common/plan/effects/plan_text.h"
+#include "common/plan/schedule/learning.h"
+#include "common/scene/uses/material_traits.h"
+#include "common/scene/uses/texture_mean.h"
 #include "tests/support/resolved.h"
 
 namespace treefarm {

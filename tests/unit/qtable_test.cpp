@@ -6,9 +6,9 @@
 
 #include <cmath>
 
+#include "common/base/policy.h"
 #include "common/guiding/statistics/cell_accumulator.h"
 #include "common/math/direction_map.h"
-#include "common/plan/policy.h"
 #include "worker/guides/qtable_walk.h"
 #include "worker/integrators/path/path_recorder.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/plan/resolve.h"
+#include "common/plan/resolve/resolve.h"
 
 #include <gtest/gtest.h>
 
@@ -9,12 +9,12 @@
 #include <fstream>
 #include <sstream>
 
+#include "common/base/policy.h"
 #include "common/config/job_keys.h"
 #include "common/config/job_reader.h"
-#include "common/plan/policy.h"
-#include "common/plan/policy_table.h"
-#include "common/plan/resolved_file.h"
-#include "common/plan/schedule.h"
+#include "common/plan/resolve/policy_table.h"
+#include "common/plan/resolve/resolved_file.h"
+#include "common/plan/schedule/schedule.h"
 #include "tests/support/support.h"
 
 namespace treefarm {
@@ -121,7 +121,7 @@ TEST(Resolve, ARuleSaysWhenGuidingAndSplittingMayEnd) {
 
 /// Members of Policy that have a default, as the header has them: "guiding.giving_up".
 std::vector<std::string> constants_of_policy_h() {
-    std::ifstream header(std::string(TREEFARM_SOURCE_DIR) + "/common/plan/policy.h");
+    std::ifstream header(std::string(TREEFARM_SOURCE_DIR) + "/common/base/policy.h");
     std::vector<std::string> names, group;
     for (std::string line; std::getline(header, line);) {
         std::istringstream words(line);

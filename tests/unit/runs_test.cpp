@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "common/runs/run_json.h"
-#include "coordinator/folder_content.h"
+#include "coordinator/run/folder_content.h"
 #include "coordinator/run/pass_record.h"
 #include "coordinator/shot/finished_frame.h"
 #include "report/run_results.h"

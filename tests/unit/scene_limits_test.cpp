@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a scene of somebody else may read and take.
-#include "common/scene/readers/scene_limits.h"
+#include "coordinator/input/check/scene_limits.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
 #include "common/image/png.h"
-#include "common/scene/readers/load.h"
+#include "coordinator/input/load.h"
 
 namespace treefarm {
 namespace {

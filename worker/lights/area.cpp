@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "common/base/error.h"
-#include "common/plan/policy.h"
+#include "common/base/policy.h"
 
 namespace treefarm {
 namespace {

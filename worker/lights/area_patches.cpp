@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "common/plan/policy.h"
+#include "common/base/policy.h"
 
 namespace treefarm {
 namespace {

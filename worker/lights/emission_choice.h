@@ -4,7 +4,7 @@
 #include <span>
 
 #include "common/base/error.h"
-#include "common/plan/policy.h"
+#include "common/base/policy.h"
 #include "worker/lights/discrete_table.h"
 
 namespace treefarm {

@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "common/base/error.h"
-#include "common/plan/policy.h"
+#include "common/base/policy.h"
 
 namespace treefarm {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "common/plan/policy.h"
+#include "common/base/policy.h"
 
 namespace treefarm {
 namespace {

@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "common/base/error.h"
+#include "common/base/policy.h"
 #include "common/math/elementary.h"
-#include "common/plan/policy.h"
 
 namespace treefarm {
 namespace {

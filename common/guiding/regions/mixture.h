@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "common/base/policy.h"
 #include "common/guiding/regions/refinement.h"
 #include "common/guiding/regions/region_model.h"
 #include "common/guiding/statistics/cell_sums.h"
-#include "common/plan/policy.h"
 
 namespace treefarm {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "common/math/vec.h"
-#include "common/scene/model/texture_image.h"
+#include "common/scene/kinds/traits/texture_image.h"
 
 namespace treefarm {
 
