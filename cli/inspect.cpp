@@ -14,6 +14,7 @@
 #include "common/image/png.h"
 #include "common/math/next_event_sums.h"
 #include "common/metrics/false_colour.h"
+#include "common/runs/run_files.h"
 #include "worker/tools/inspect_film.h"
 
 namespace treefarm {
@@ -70,8 +71,9 @@ std::vector<MapReport> write_maps(const TraceScene& scene, const AnyModel& tree,
 }
 
 std::filesystem::path picture_folder(const InspectOptions& options) {
-    const std::filesystem::path folder = options.output.empty() ? std::filesystem::path(options.directory) / "inspect"
-                                                                : std::filesystem::path(options.output);
+    const std::filesystem::path folder = options.output.empty()
+                                             ? std::filesystem::path(options.directory) / kInspectFolder
+                                             : std::filesystem::path(options.output);
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error)

@@ -12,9 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "cli/on_farm.h"
@@ -27,6 +25,7 @@
 #include "common/base/timer.h"
 #include "common/comm/join_ticket.h"
 #include "common/comm/tcp_channel.h"
+#include "common/runs/run_json.h"
 #include "worker/local_worker.h"
 #include "worker/registry.h"
 
@@ -54,9 +53,9 @@ fs::path ticket_file(const JoinOptions& options) {
     if (!options.file.empty()) return options.file;
     const fs::path run = options.run;
     if (fs::exists(run / kTicketFileName)) return run / kTicketFileName;
-    if (!fs::exists(run / "job.toml"))
+    if (!fs::exists(run / kJobFile))
         refuse(run, "is no run directory", "name the folder that a render writes its files to");
-    if (fs::exists(run / "summary.json"))
+    if (fs::exists(run / kSummaryFile))
         refuse(run, "is over: there is nothing to join", "treefarm resume adds samples to it");
     refuse(run, "accepts no workers: it was started without farm.join, or was killed",
            "start it with --set farm.join=true");
@@ -64,9 +63,7 @@ fs::path ticket_file(const JoinOptions& options) {
 
 /// Whether the render has ended for good.
 bool is_done(const JoinOptions& options) {
-    std::ifstream file(fs::path(options.run) / "summary.json", std::ios::binary);
-    const auto summary = nlohmann::json::parse(file, nullptr, false);
-    return !options.run.empty() && summary.is_object() && summary.value("state", "") == "done";
+    return !options.run.empty() && text_in(read_run_json(fs::path(options.run) / kSummaryFile), "state") == "done";
 }
 
 /// A worker that joins a run, and rejoins after each loss of its connection.

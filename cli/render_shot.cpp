@@ -8,6 +8,7 @@
 #include "cli/render.h"
 #include "common/base/refuse.h"
 #include "common/config/job_reader.h"
+#include "common/runs/run_files.h"
 #include "coordinator/shot/frame_record.h"
 #include "coordinator/shot/frames.h"
 #include "coordinator/shot/shot_run.h"
@@ -29,13 +30,12 @@ RenderOptions frame_options(RenderOptions options, int frame) {
 /// Run directory of the model with which a frame begins: that of an earlier start, if there was one; else that of the
 /// nearest earlier frame with a model. Empty: none.
 std::string carried_model(const Shot& shot, int frame) {
-    if (const std::filesystem::path own = shot.directory / frame_folder(frame) / "job.toml";
-        std::filesystem::exists(own))
+    if (const std::filesystem::path own = shot.directory / frame_folder(frame) / kJobFile; std::filesystem::exists(own))
         return read_job_file(own).guiding.initial_model;
     const auto end = std::find(shot.frames.begin(), shot.frames.end(), frame);
     for (auto before = end; before != shot.frames.begin();) {
         const std::filesystem::path folder = shot.directory / frame_folder(*--before);
-        if (std::filesystem::exists(folder / "tree.bin")) return folder.string();
+        if (std::filesystem::exists(folder / kTreeFile)) return folder.string();
     }
     return "";
 }

@@ -34,6 +34,9 @@ struct PassRow {
     double idle_seconds = 0;
 };
 
+/// A pass as summary.json and cell.json list it, with what both have. Throws RunJson::exception.
+PassRow read_pass(const nlohmann::ordered_json& json);
+
 struct CellResult {
     std::string scene, method;
     std::uint64_t seed = 0;

@@ -8,6 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files/read_bytes.h"
+#include "common/runs/run_files.h"
 #include "report/html.h"
 
 namespace treefarm {
@@ -72,7 +73,7 @@ std::string tree_pictures(const StudyResults& results, const SceneResult& scene)
     std::string html;
     for (const MethodResult& method : results.methods)
         for (const CellResult* cell : results.of(scene.name, method.name)) {
-            const std::filesystem::path file = cell->folder / "inspect" / "inspect.json";
+            const std::filesystem::path file = cell->folder / kInspectFolder / "inspect.json";
             if (!std::filesystem::exists(file)) continue;
             html += cell_pictures(*cell, file);
             break;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/runs/run_files.h"
 #include "serve/file_json.h"
 #include "serve/metrics_text.h"
 #include "serve/page_assets.h"
@@ -159,7 +160,7 @@ SiteResponse Site::metrics() {
 }
 
 SiteResponse Site::picture(const SiteRequest& request, const std::string& run) const {
-    const std::string path = joined_path(run, "preview.png");
+    const std::string path = joined_path(run, kPreviewFile);
     if (!is_run(folder_, run)) return refusal(404, "there is no such run");
     const auto version = folder_.version(path);
     if (!version) return refusal(404, "there is no picture yet");

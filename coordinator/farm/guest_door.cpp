@@ -4,6 +4,7 @@
 #include "common/base/text/parse_text.h"
 #include "common/comm/join_ticket.h"
 #include "common/comm/tcp_channel.h"
+#include "common/runs/run_files.h"
 
 namespace treefarm {
 

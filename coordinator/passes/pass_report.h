@@ -102,11 +102,4 @@ void fill_from_collector(PassReport& report, const Collector& collector);
 /// Computes seconds.idle from seconds.all and the other figures.
 void count_idle(PassReport& report);
 
-/// Header line and a pass's line of passes.csv, without line ends.
-std::string pass_csv_header();
-std::string pass_csv_line(const PassReport& report);
-
-/// Name of a forecast's trust: "firm", "noisy", "learning", or empty.
-const char* trust_name(Trust trust);
-
 }  // namespace treefarm

@@ -6,6 +6,7 @@
 
 #include "common/base/text/parse_text.h"
 #include "common/base/timer.h"
+#include "common/runs/run_files.h"
 #include "coordinator/run/last_files.h"
 
 namespace treefarm {
@@ -85,7 +86,7 @@ std::string RunCheckpoints::finish(bool done) {
     return "no checkpoint of the end: " + failures.front() + "; " +
            (done ? "the image is whole, but no samples can be added to it: for more, free space and "
                  : "what the one before it has is kept; or, with more space, ") +
-           "render again: treefarm render " + shell_quoted((folder_.parent_path() / "job.toml").string());
+           "render again: treefarm render " + shell_quoted((folder_.parent_path() / kJobFile).string());
 }
 
 }  // namespace treefarm

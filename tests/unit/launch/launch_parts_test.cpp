@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "common/comm/run_key.h"
+#include "common/runs/run_files.h"
 #include "coordinator/launch/host_keys.h"
 #include "coordinator/launch/host_pool.h"
 #include "coordinator/launch/host_probe.h"
