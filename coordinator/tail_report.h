@@ -13,7 +13,7 @@ namespace treefarm {
 
 /// Who carries the noise of an image (docs/design/error.md, "fireflies").
 struct TailReport {
-    std::optional<double> share;  ///< of the fewest pixels with kPolicy.tails.noise_part of it; nothing: none is known
+    std::optional<double> share;  ///< of the fewest pixels with two fifths of it; nothing: none is known
     TailSamples worst;            ///< of all passes in the image; noise is that of the image
     std::string origin;           ///< in words, that of most of their noise; "": none is known
 

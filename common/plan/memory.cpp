@@ -14,7 +14,6 @@
 #include "common/guiding/statistics/cell_sums.h"
 #include "common/plan/kernel.h"
 #include "common/plan/learning.h"
-#include "common/plan/policy.h"
 #include "common/plan/schedule.h"
 #include "common/plan/texture_mean.h"
 #include "common/scene/uses/emitter_uses.h"
@@ -77,15 +76,14 @@ struct LightParts {
     std::uint64_t cut_triangles = 0;  ///< of meshes in patches
 };
 LightParts light_parts(const Scene& scene) {
-    constexpr std::uint64_t kPatchTriangles = 8, kMostPatches = 128, kImageParts = 8;
+    constexpr std::uint64_t kFewTriangles = 16, kPatchTriangles = 8, kMostPatches = 128, kImageParts = 8;
     LightParts parts;
     for (const Emitter& emitter : scene.emitters) {
         std::uint64_t count = 1;
         for_each_image(emitter, [&](std::int32_t) { count = kImageParts; });
         if (const auto* area = std::get_if<AreaEmitter>(&emitter.kind); area && area->shape != kNone) {
             const auto* mesh = std::get_if<Mesh>(&scene.shapes[static_cast<std::size_t>(area->shape)].geometry);
-            if (const std::uint64_t triangles = mesh ? mesh->triangle_count() : 0;
-                triangles > kPolicy.lights.few_triangles) {
+            if (const std::uint64_t triangles = mesh ? mesh->triangle_count() : 0; triangles > kFewTriangles) {
                 count = std::min(triangles / kPatchTriangles, kMostPatches);
                 parts.cut_triangles += triangles;
             }

@@ -8,7 +8,6 @@
 
 #include "common/guiding/statistics/cell_accumulator.h"
 #include "common/math/direction_map.h"
-#include "common/plan/policy.h"
 #include "worker/guides/qtable_walk.h"
 #include "worker/integrators/path/path_recorder.h"
 
@@ -81,7 +80,7 @@ TEST(QTable, SamplesInProportionToQButForAFloor) {
                         dark = direction_to_code(normalize(Vec3(0.2f, 0.1f, -1.0f)));
     model.q[QTableSampler::cell(0, bright)] = 64.0f;
     const QTableSampler guide(model);
-    const double floor = kPolicy.grids.table_floor, total = 64 + 63 * floor;
+    const double floor = kTableFloor, total = 64 + 63 * floor;
     EXPECT_NEAR(double(guide.pdf(0, bright) / guide.pdf(0, dark)), 64 / floor, 1.0);
     EXPECT_NEAR(double(guide.pdf(0, bright)), 64 / total * kStrata / (4 * 3.14159265), 1e-4);
     EXPECT_EQ(guide.radiance(0, dark), 0.0f);

@@ -7,18 +7,18 @@
 #include <numeric>
 
 #include "common/math/elementary.h"
-#include "common/plan/policy.h"
 
 namespace treefarm {
 namespace {
 
 constexpr std::uint32_t kOne = 1u << kMassBits;
+constexpr double kEvenPart = 0.1;  ///< of the samples: light that no record has found must be found
 
 }  // namespace
 
 float GridSampler::radiance(std::uint32_t region, std::uint32_t code) const {
     if (!(flux(region) > 0.0f)) return -1.0f;
-    const auto even = static_cast<float>(kPolicy.grids.even_part);
+    const auto even = static_cast<float>(kEvenPart);
     return flux(region) * std::max(pdf(region, code) - even * kInvFourPi, 0.0f) / (1.0f - even);
 }
 
@@ -40,7 +40,7 @@ double GridCells::learn(const GridModel& model, const CellSums& sums, const Refi
     if (settings.target == GuidingTarget::variance)
         for (double& e : energy)
             e = std::sqrt(e);
-    if (recorded > 0) set_strata(energy, kPolicy.grids.even_part, &next.mass[region * kStrata]);
+    if (recorded > 0) set_strata(energy, kEvenPart, &next.mass[region * kStrata]);
     return recorded;
 }
 

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "common/base/error.h"
-#include "common/plan/policy.h"
 
 namespace treefarm {
 namespace {
@@ -21,7 +20,7 @@ std::vector<std::uint32_t> strata_of(const QTableModel& model) {
         for (std::size_t s = 0; s < kStrata; ++s)
             mean += double{model.q[first + s]} / kStrata;
         for (std::size_t s = 0; s < kStrata; ++s)
-            weight[s] = mean > 0 ? std::max(double{model.q[first + s]}, kPolicy.grids.table_floor * mean) : 1.0;
+            weight[s] = mean > 0 ? std::max(double{model.q[first + s]}, kTableFloor * mean) : 1.0;
         set_strata(weight, 0.0, &mass[first]);
     }
     return mass;
@@ -42,7 +41,7 @@ double QTableCells::learn(const QTableModel& model, const CellSums& sums, const 
     double recorded = 0;
     for (std::size_t c = region * std::size_t{kStrata}; c < (region + 1) * std::size_t{kStrata}; ++c) {
         const auto sum = static_cast<double>(sums.cells()[c]);
-        const double before = kPolicy.learning.kept_evidence * visits_[c];
+        const double before = kKeptEvidence * visits_[c];
         recorded += sum;
         visits_[c] = before + static_cast<double>(sums.visits()[c]);
         if (visits_[c] == 0) continue;

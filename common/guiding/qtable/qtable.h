@@ -12,12 +12,15 @@ namespace treefarm {
 /// Q(region, stratum), the regions of a fixed grid and strata of directions (strata.h). A visit brings what its
 /// direction met at once, and for the rest what the table says of the next vertex (guiding.bootstrap, 1 here:
 /// Cavus 2020, eq. 2.27, by one sample of the integral); Q is the mean of visits, those of earlier passes at half their
-/// weight each time. Strata are sampled in proportion to Q, but for a floor (grids.table_floor): what was never sampled
+/// weight each time. Strata are sampled in proportion to Q, but for a floor (kTableFloor): what was never sampled
 /// would never be learned.
 struct QTableModel : RegionModel {
     std::vector<float> q;  ///< per region kStrata radiances, averaged over channels, >= 0 and finite
     bool operator==(const QTableModel&) const = default;
 };
+
+/// Least weight of a stratum, of its region's mean.
+inline constexpr double kTableFloor = 0.02;
 
 /// The table in the form that workers sample from.
 class QTableSampler : public StrataSampler {

@@ -9,7 +9,6 @@
 #include "common/guiding/regions/refinement.h"
 #include "common/guiding/regions/region_model.h"
 #include "common/guiding/statistics/cell_sums.h"
-#include "common/plan/policy.h"
 
 namespace treefarm {
 

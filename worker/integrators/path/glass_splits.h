@@ -24,7 +24,7 @@ class GlassSplits {
     /// Chance with which a way of this probability is followed, never so small that its weight overflows, or that 24
     /// random bits do not tell.
     static float chance(float probability) {
-        return std::clamp(kPolicy.walk.split_often * probability, kPolicy.walk.split_least, 1.0f);
+        return std::clamp(tuned<float>("walk.split_often") * probability, 0x1p-12f, 1.0f);
     }
 
     /// Splits a path at the first surface, which has drawn path.scatter: if the other of two ways is open, the path

@@ -19,7 +19,9 @@ class NextEventCounts {
     NextEventCounts(TraceStats& stats, std::span<NextEventSums> regions) : stats_(stats), regions_(regions) {}
 
     /// Whether a path is among those along which it is counted: a few samples of each pixel.
-    static bool counts(const PathKey& key) { return key.sample % kPolicy.next_event.counted_every == 0; }
+    static bool counts(const PathKey& key) {
+        return key.sample % tuned<std::uint32_t>("next_event.counted_every") == 0;
+    }
 
     /// A vertex at which an emitter may be sampled, and whether it is.
     void asked(std::uint32_t region, bool drawn) const {
