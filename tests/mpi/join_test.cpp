@@ -8,7 +8,6 @@
 
 #include "common/comm/join_ticket.h"
 #include "tests/mpi/program.h"
-#include "tests/support/support.h"
 
 namespace treefarm::test {
 namespace {

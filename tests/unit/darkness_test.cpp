@@ -2,8 +2,6 @@
 // Why an image may be black: what dark_causes() finds, and that it finds nothing where there is light.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "common/scene/lint/lint.h"
 #include "common/scene/readers/load.h"
 #include "tests/support/support.h"

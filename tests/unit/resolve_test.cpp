@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -11,10 +10,9 @@
 #include "common/config/job_keys.h"
 #include "common/config/job_reader.h"
 #include "common/plan/policy.h"
-#include "common/plan/policy_table.h"
 #include "common/plan/resolved_file.h"
 #include "common/plan/schedule.h"
-#include "tests/support/support.h"
+#include "tests/support/refusal.h"
 
 namespace treefarm {
 namespace {
@@ -217,12 +215,7 @@ TEST(ResolvedToml, OfAnotherSceneIsRefused) {
     EXPECT_NO_THROW(require_scene(experiment, kHash, "1.2.3", ""));
     EXPECT_NO_THROW(require_scene(experiment, kHash, "1.3.0", "-D width"));
     const auto refusal = [&](const std::string& version, const std::string& changed_by) -> std::string {
-        try {
-            require_scene(experiment, "fedcba9876543210", version, changed_by);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
+        return test::refusal_of([&] { require_scene(experiment, "fedcba9876543210", version, changed_by); });
     };
     EXPECT_EQ(refusal("1.2.3", "")
                   .find("resolved.toml:6:1: experiment.scene_hash was 0123456789abcdef, and is "
