@@ -13,7 +13,6 @@
 #include "common/base/host.h"
 #include "common/comm/in_process_channel.h"
 #include "common/plan/kernel.h"
-#include "common/plan/learning.h"
 #include "common/scene/pack/scene_codec.h"
 #include "coordinator/pass_loop.h"
 #include "worker/integrators/registry.h"

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <string>
 
 #include "cli/render.h"
 #include "common/guiding/any_guide.h"

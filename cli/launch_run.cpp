@@ -7,18 +7,14 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <memory>
 #include <random>
-#include <sstream>
 
 #include "cli/attempt_processes.h"
 #include "cli/child_process.h"
 #include "cli/host_keys.h"
-#include "cli/host_probe.h"
 #include "cli/interrupt.h"
 #include "cli/launch_folder.h"
 #include "cli/launch_plan.h"

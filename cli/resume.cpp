@@ -11,7 +11,6 @@
 #include "cli/option_values.h"
 #include "cli/refuse.h"
 #include "cli/render.h"
-#include "common/base/hash.h"
 #include "common/config/job_keys.h"
 #include "common/config/parse_text.h"
 #include "common/plan/resolved_file.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/render_state.h"
 
-#include <algorithm>
 #include <future>
 #include <utility>
 

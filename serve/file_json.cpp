@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "serve/file_json.h"
 
-#include <algorithm>
-
 namespace treefarm {
 
 namespace {

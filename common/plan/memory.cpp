@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "common/config/aov_list.h"
 #include "common/config/parse_text.h"

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "common/base/hash.h"
 #include "common/base/reading_notice.h"
 #include "common/config/parse_text.h"
 #include "common/image/atomic_file.h"

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "common/scene/lint/emitter_points.h"
 #include "common/scene/lint/first_hit.h"

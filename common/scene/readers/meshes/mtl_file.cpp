@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/scene/readers/meshes/mtl_file.h"
 
-#include <cmath>
-
 #include "common/config/parse_text.h"
 #include "common/scene/readers/input_file.h"
 #include "common/scene/readers/meshes/obj_scanner.h"

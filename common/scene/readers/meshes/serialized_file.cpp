@@ -2,7 +2,6 @@
 #include "common/scene/readers/meshes/serialized_file.h"
 
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <limits>
 

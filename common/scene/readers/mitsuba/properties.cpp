@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include "common/config/parse_text.h"
 #include "common/scene/readers/mitsuba/values.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/scene/readers/mitsuba/refractive_index.h"
 
-#include <algorithm>
 #include <array>
 
 #include "common/config/parse_text.h"

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "common/config/parse_text.h"
 #include "common/scene/readers/mitsuba/values.h"
 
 namespace treefarm::mitsuba {
