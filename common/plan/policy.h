@@ -33,7 +33,7 @@ inline constexpr const char* kMissed = "bench/log/2026-11-27-missed-light.md";
 inline constexpr const char* kRare = "bench/log/2026-11-27-rare-light.md";
 inline constexpr const char* kHeld = "bench/log/2026-11-28-held-out.md";
 
-/// All of them, by groups of what they decide.
+/// Table of all constants, by groups of what they decide.
 inline constexpr Constant kConstants[] = {
     // When paths are unguided ("auto"), by what guided samples tell of unguided ones.
     {"guiding.least_judged_spp", 4, "shorter passes have no say, spp", kAuto},
@@ -185,7 +185,7 @@ inline constexpr Constant kConstants[] = {
 
 }  // namespace policy
 
-/// The value of a constant. A name that there is not, and a fraction where an integer is asked for, do not compile.
+/// Value of a constant. An unknown name does not compile, nor does an integer type for a fraction.
 template <class Number = double>
 consteval Number tuned(const char* name) {
     for (const policy::Constant& constant : policy::kConstants) {

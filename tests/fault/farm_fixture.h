@@ -175,8 +175,7 @@ class FarmTest : public ::testing::Test {
         ends_.assign(std::size_t(count), WorkerEnd::orderly);
     }
 
-    /// Two workers. `act` gets the first one's first result on its way; what it does comes to pass, since the second
-    /// one waits for it.
+    /// Two workers. `act` gets the first one's first result on its way; the second one waits for that.
     void on_first_result(std::function<void(Bytes&)> act) {
         make_workers(2);
         first_ = 0;
@@ -186,7 +185,7 @@ class FarmTest : public ::testing::Test {
             return true;
         };
     }
-    /// The same by a change of the result.
+    /// Two workers; `change` alters the first one's first result on its way.
     void change_first_result(std::function<void(Result&)> change) {
         on_first_result([change = std::move(change)](Bytes& bytes) {
             auto result = std::get<Result>(decode(bytes));

@@ -16,7 +16,7 @@ void write_file(const std::filesystem::path& file, const std::string& text);
 
 /// A folder of the running test alone, which exists.
 std::filesystem::path test_folder();
-/// The same folder, emptied.
+/// The test's folder, emptied.
 std::filesystem::path fresh_test_folder();
 
 /// A test with a folder of its own, which is empty when it begins.

@@ -13,7 +13,7 @@ double diagonal2(const Box3& box) {
     return size.dot(size);
 }
 
-/// What boxes count in the tree's cost at least, so that lamps in a line have some as well.
+/// Least area of a box in the tree's cost: boxes of lamps in a line have none of their own.
 double least_area(const Box3& box) {
     const double area = 1e-3 * diagonal2(box);
     return area > 0 ? area : 1.0;

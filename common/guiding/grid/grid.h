@@ -24,7 +24,7 @@ class GridSampler : public StrataSampler {
     float radiance(std::uint32_t region, std::uint32_t code) const;
 };
 
-/// The cells of the grid (EvenGuide). Of earlier passes it remembers nothing.
+/// Cells of the grid (EvenGuide), without memory of earlier passes.
 struct GridCells {
     using Model = GridModel;
     using Sampler = GridSampler;

@@ -38,7 +38,7 @@ class QTableSampler : public StrataSampler {
     std::vector<float> q_;
 };
 
-/// The cells of the table (EvenGuide), and how many visits stand behind each Q.
+/// Cells of the table (EvenGuide), with the number of visits behind each Q.
 class QTableCells {
   public:
     using Model = QTableModel;

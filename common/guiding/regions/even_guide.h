@@ -7,7 +7,7 @@
 
 namespace treefarm {
 
-/// The learner of a guide of even regions. `Cells` (EvenGuide) remembers what is of directions.
+/// Learner of a guide of even regions. `Cells` (EvenGuide) learns directions, RegionLearner the rest.
 template <class Cells>
 class EvenLearner {
   public:
@@ -39,9 +39,9 @@ class EvenLearner {
     RegionLearner regions_;
 };
 
-/// A guide (guides.h) of even regions and strata of directions (strata.h). `Cells` says what is its own: Model,
-/// Sampler, kMagic, kCost; begin(), write() and read(), the model's values of cells; and learn(), which sets those of
-/// one region after a pass and returns the sum of what it recorded there.
+/// Guide (guides.h) of even regions and strata of directions (strata.h). `Cells` is the guide's own part: Model,
+/// Sampler, kMagic and kCost; begin(), write() and read() of the model's values of cells; learn(), which sets those of
+/// one region from a pass and returns the sum of the region's records.
 template <class Cells>
 struct EvenGuide {
     using Model = typename Cells::Model;

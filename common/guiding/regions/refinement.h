@@ -9,8 +9,8 @@
 
 namespace treefarm {
 
-/// Weight of what is known of emitters, next event, mixtures and visits with each pass after: what was learned of a
-/// coarser model goes out of date, and the next pass has twice the samples.
+/// Factor by which evidence of emitters, next event, mixtures and visits loses weight with each pass: that of a coarser
+/// model goes out of date.
 inline constexpr double kKeptEvidence = 0.5;
 
 /// What a pass costs and how noisy it is: by these a decision on next event weighs noise against rays.

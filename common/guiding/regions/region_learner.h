@@ -10,8 +10,8 @@ namespace treefarm {
 /// The part of every guide's learner: emitters, next event and mixtures by region.
 class RegionLearner {
   public:
-    /// Sets in `next` what the pass over `model` recorded of them. `learn_mixture`: it recorded histograms. `report`
-    /// has the origins of the regions, and gets the verdict on next event.
+    /// Sets all three in `next` from the sums of a pass over `model`. `learn_mixture`: the pass recorded histograms.
+    /// `report` has the origins of the regions, and gets the verdict on next event.
     void learn(const RegionModel& model, const CellSums& sums, const RefineSettings& settings, bool learn_mixture,
                RefineReport& report, RegionModel& next) {
         if (model.learns_lights()) lights_.learn(model, sums, report.origins, next);
