@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "cli/option_values.h"
-#include "common/scene/check/validate.h"
-#include "common/scene/lint/lint.h"
-#include "common/scene/readers/load.h"
+#include "coordinator/input/check/validate.h"
+#include "coordinator/input/lint/lint.h"
+#include "coordinator/input/load.h"
 
 namespace treefarm {
 

@@ -5,7 +5,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "cli/launch.h"
+#include "cli/launch_environment.h"
 #include "common/metrics/flip/kernels.h"
 
 namespace CLI {

@@ -9,11 +9,11 @@
 #include <memory>
 
 #include "cli/option_values.h"
+#include "cli/picture_of_layer.h"
 #include "common/base/error.h"
-#include "common/config/parse_text.h"
-#include "common/image/atomic_file.h"
+#include "common/base/files/atomic_file.h"
+#include "common/base/text/parse_text.h"
 #include "common/image/exr.h"
-#include "common/image/picture_of_layer.h"
 #include "common/image/png.h"
 
 namespace treefarm {

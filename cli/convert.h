@@ -4,7 +4,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "cli/launch.h"
+#include "cli/launch_environment.h"
 
 namespace CLI {
 class App;

@@ -9,13 +9,13 @@
 #include <thread>
 #include <utility>
 
-#include "cli/launch.h"
+#include "cli/launch_environment.h"
 #include "common/base/host.h"
 #include "common/comm/in_process_channel.h"
-#include "common/plan/kernel.h"
+#include "common/plan/schedule/kernel.h"
 #include "common/scene/pack/scene_codec.h"
-#include "coordinator/pass_loop.h"
-#include "worker/integrators/registry.h"
+#include "coordinator/passes/pass_loop.h"
+#include "worker/registry.h"
 #include "worker/tools/describe_sample.h"
 #include "worker/worker_loop.h"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "coordinator/render_run.h"
+#include "coordinator/run/render_run.h"
 
 namespace treefarm {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coordinator/run_report.h"
+#include "coordinator/run/run_report.h"
 
 namespace treefarm {
 

@@ -8,8 +8,8 @@
 #include "cli/stored_model.h"
 #include "common/config/job_keys.h"
 #include "common/config/job_reader.h"
-#include "common/plan/resolved_file.h"
-#include "common/plan/schedule_file.h"
+#include "common/plan/resolve/resolved_file.h"
+#include "common/plan/schedule/schedule_file.h"
 
 namespace treefarm {
 

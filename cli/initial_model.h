@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coordinator/render_run.h"
+#include "coordinator/run/render_run.h"
 
 namespace treefarm {
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "cli/refuse.h"
-#include "common/config/parse_text.h"
-#include "common/scene/readers/foreign_format.h"
+#include "common/base/text/parse_text.h"
+#include "coordinator/input/foreign_format.h"
 
 namespace treefarm {
 

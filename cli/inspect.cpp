@@ -9,7 +9,7 @@
 
 #include "cli/inspect_output.h"
 #include "cli/option_values.h"
-#include "common/image/atomic_file.h"
+#include "common/base/files/atomic_file.h"
 #include "common/image/png.h"
 #include "common/math/next_event_sums.h"
 #include "common/metrics/false_colour.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/config/parse_text.h"
+#include "common/base/text/parse_text.h"
 #include "common/image/png.h"
 #include "common/metrics/false_colour.h"
 

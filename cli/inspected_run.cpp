@@ -6,10 +6,10 @@
 
 #include "cli/refuse.h"
 #include "cli/stored_model.h"
+#include "common/base/files/read_bytes.h"
 #include "common/base/hash.h"
 #include "common/config/job_reader.h"
-#include "common/image/read_bytes.h"
-#include "common/plan/schedule_file.h"
+#include "common/plan/schedule/schedule_file.h"
 #include "common/scene/pack/scene_codec.h"
 
 namespace treefarm {

@@ -17,15 +17,15 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "cli/interrupt.h"
 #include "cli/on_farm.h"
 #include "cli/option_values.h"
 #include "cli/refuse.h"
 #include "common/base/error.h"
+#include "common/base/interrupt.h"
 #include "common/base/timer.h"
 #include "common/comm/join_ticket.h"
 #include "common/comm/tcp_channel.h"
-#include "worker/integrators/registry.h"
+#include "worker/registry.h"
 #include "worker/worker_loop.h"
 
 namespace treefarm {

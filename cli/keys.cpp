@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/error.h"
+#include "common/base/text/parse_text.h"
 #include "common/config/job_keys.h"
-#include "common/config/parse_text.h"
 
 namespace treefarm {
 

@@ -11,7 +11,7 @@
 #include "cli/study.h"
 #include "cli/usage.h"
 #include "common/config/job_reader.h"
-#include "common/config/study.h"
+#include "coordinator/study/study.h"
 
 namespace treefarm {
 

@@ -14,7 +14,7 @@
 #include "cli/inspect.h"
 #include "cli/join.h"
 #include "cli/keys.h"
-#include "cli/launch.h"
+#include "cli/launch_environment.h"
 #include "cli/option_values.h"
 #include "cli/plan.h"
 #include "cli/render.h"

@@ -8,18 +8,18 @@
 #include <optional>
 #include <thread>
 
-#include "cli/interrupt.h"
 #include "cli/option_values.h"
 #include "cli/this_build.h"
 #include "common/base/error.h"
 #include "common/base/host.h"
+#include "common/base/interrupt.h"
 #include "common/comm/in_process_channel.h"
 #include "common/comm/mpi_channel.h"
 #include "common/comm/multi_channel.h"
 #include "common/comm/run_key.h"
-#include "coordinator/farm.h"
-#include "coordinator/pulse.h"
-#include "worker/integrators/registry.h"
+#include "coordinator/farm/farm.h"
+#include "coordinator/farm/pulse.h"
+#include "worker/registry.h"
 #include "worker/worker_loop.h"
 
 namespace treefarm {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/launch.h"
+#include "cli/launch_environment.h"
 #include "common/base/console.h"
 #include "common/comm/channel.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/base/error.h"
-#include "common/config/parse_text.h"
+#include "common/base/text/parse_text.h"
 #include "common/config/quantities.h"
 
 namespace treefarm {

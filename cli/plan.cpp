@@ -10,9 +10,9 @@
 #include "cli/option_values.h"
 #include "cli/plan_answer.h"
 #include "cli/render.h"
-#include "common/plan/estimator_advice.h"
-#include "common/plan/plan_text.h"
-#include "common/scene/lint/lint.h"
+#include "common/plan/effects/plan_text.h"
+#include "coordinator/input/lint/estimator_advice.h"
+#include "coordinator/input/lint/lint.h"
 
 namespace treefarm {
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "coordinator/pass_text.h"
+#include "coordinator/words/pass_text.h"
 
 namespace treefarm {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cli/probe.h"
-#include "common/plan/expectation.h"
+#include "common/plan/forecast/expectation.h"
 
 namespace treefarm {
 

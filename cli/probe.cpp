@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "cli/on_farm.h"
-#include "common/plan/learning.h"
+#include "common/plan/schedule/learning.h"
 #include "common/scene/pack/scene_codec.h"
-#include "coordinator/pass_loop.h"
+#include "coordinator/passes/pass_loop.h"
 
 namespace treefarm {
 

@@ -9,8 +9,8 @@
 #include "cli/option_values.h"
 #include "cli/render_shot.h"
 #include "cli/resume.h"
-#include "common/base/reading_notice.h"
-#include "coordinator/folder_content.h"
+#include "coordinator/run/folder_content.h"
+#include "coordinator/words/reading_notice.h"
 
 namespace treefarm {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/launch.h"
+#include "cli/launch_environment.h"
 #include "cli/on_farm.h"
-#include "coordinator/render_run.h"
+#include "coordinator/run/render_run.h"
 
 namespace CLI {
 class App;

@@ -7,15 +7,15 @@
 #include "cli/render.h"
 #include "cli/this_build.h"
 #include "common/base/hash.h"
+#include "common/base/text/parse_text.h"
 #include "common/config/check_job.h"
 #include "common/config/job_keys.h"
 #include "common/config/job_reader.h"
-#include "common/config/parse_text.h"
-#include "common/plan/resolved_file.h"
-#include "common/plan/schedule_file.h"
+#include "common/plan/resolve/resolved_file.h"
+#include "common/plan/schedule/schedule_file.h"
 #include "common/scene/pack/scene_codec.h"
-#include "common/scene/readers/load.h"
 #include "coordinator/display/display_server.h"
+#include "coordinator/input/load.h"
 
 namespace treefarm {
 

@@ -7,9 +7,9 @@
 #include "cli/refuse.h"
 #include "cli/resume.h"
 #include "cli/this_build.h"
-#include "common/config/frames.h"
 #include "common/config/job_reader.h"
 #include "coordinator/shot/frame_record.h"
+#include "coordinator/shot/frames.h"
 #include "coordinator/shot/shot_run.h"
 
 namespace treefarm {

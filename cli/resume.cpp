@@ -11,11 +11,11 @@
 #include "cli/option_values.h"
 #include "cli/refuse.h"
 #include "cli/render.h"
+#include "common/base/text/parse_text.h"
 #include "common/config/job_keys.h"
-#include "common/config/parse_text.h"
-#include "common/plan/resolved_file.h"
+#include "common/plan/resolve/resolved_file.h"
 #include "common/scene/pack/scene_codec.h"
-#include "coordinator/run_folder.h"
+#include "coordinator/run/run_folder.h"
 #include "coordinator/shot/finished_frame.h"
 
 namespace treefarm {

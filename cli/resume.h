@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cli/on_farm.h"
-#include "coordinator/render_run.h"
+#include "coordinator/run/render_run.h"
 
 namespace CLI {
 class App;

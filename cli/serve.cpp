@@ -8,10 +8,10 @@
 #include <memory>
 #include <thread>
 
-#include "cli/interrupt.h"
 #include "cli/option_values.h"
 #include "cli/refuse.h"
 #include "common/base/host.h"
+#include "common/base/interrupt.h"
 #include "serve/site.h"
 #include "serve/token.h"
 #include "serve/web_server.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cli/launch.h"
+#include "cli/launch_environment.h"
 
 namespace CLI {
 class App;

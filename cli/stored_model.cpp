@@ -2,8 +2,8 @@
 #include "cli/stored_model.h"
 
 #include "cli/refuse.h"
+#include "common/base/files/read_bytes.h"
 #include "common/base/hash.h"
-#include "common/image/read_bytes.h"
 
 namespace treefarm {
 

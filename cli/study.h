@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cli/launch.h"
+#include "cli/launch_environment.h"
 
 namespace CLI {
 class App;

@@ -5,10 +5,10 @@
 #include <iostream>
 #include <memory>
 
-#include "cli/launch_run.h"
 #include "cli/option_values.h"
-#include "cli/sweep.h"
 #include "common/base/error.h"
+#include "coordinator/launch/launch_run.h"
+#include "coordinator/launch/sweep.h"
 
 namespace treefarm {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/option_advice.h"
-#include "common/config/parse_text.h"
+#include "common/base/text/parse_text.h"
 
 namespace treefarm {
 

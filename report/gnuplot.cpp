@@ -15,7 +15,7 @@
 #include <sstream>
 
 #include "common/base/error.h"
-#include "common/image/atomic_file.h"
+#include "common/base/files/atomic_file.h"
 #include "report/html.h"
 
 namespace treefarm {

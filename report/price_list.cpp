@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "common/image/atomic_file.h"
+#include "common/base/files/atomic_file.h"
 
 namespace treefarm {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/study_report.h"
 
-#include "common/image/atomic_file.h"
+#include "common/base/files/atomic_file.h"
 #include "report/processor_fraction.h"
 #include "report/study_csv.h"
 #include "report/study_page.h"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/error.h"
-#include "common/image/read_bytes.h"
+#include "common/base/files/read_bytes.h"
 #include "report/html.h"
 
 namespace treefarm {

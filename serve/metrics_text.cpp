@@ -7,7 +7,7 @@
 #include <functional>
 #include <utility>
 
-#include "common/base/printable.h"
+#include "common/base/text/printable.h"
 
 namespace treefarm {
 

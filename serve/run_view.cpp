@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "common/base/host.h"
-#include "common/base/printable.h"
+#include "common/base/text/printable.h"
 #include "serve/file_json.h"
 #include "serve/pass_table.h"
 

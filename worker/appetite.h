@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "common/plan/schedule.h"
+#include "common/plan/schedule/schedule.h"
 
 namespace treefarm {
 

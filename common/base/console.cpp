@@ -5,7 +5,7 @@
 
 #include <cerrno>
 
-#include "common/base/printable.h"
+#include "common/base/text/printable.h"
 
 namespace treefarm {
 

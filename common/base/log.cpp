@@ -10,7 +10,7 @@
 #include <mutex>
 #include <utility>
 
-#include "common/base/printable.h"
+#include "common/base/text/printable.h"
 
 namespace treefarm {
 

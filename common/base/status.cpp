@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/printable.h"
 #include "common/base/terminal.h"
+#include "common/base/text/printable.h"
 
 namespace treefarm {
 

@@ -5,7 +5,7 @@
 
 namespace treefarm {
 
-/// Abilities of whatever shows a stream. cli/launch.cpp finds them out; the rest of the program is told.
+/// Abilities of whatever shows a stream. cli/launch_environment.cpp finds them out; the rest of the program is told.
 struct TerminalKind {
     bool live = false;    ///< a terminal on which a line can be drawn again, by escape sequences
     bool colour = false;  ///< words of a live terminal can have a colour

@@ -5,7 +5,7 @@
 #include <cctype>
 #include <set>
 
-#include "common/config/parse_text.h"
+#include "common/base/text/parse_text.h"
 
 namespace treefarm {
 

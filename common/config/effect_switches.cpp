@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "common/plan/effects/table.h"
+#include "common/config/effects/table.h"
 
 namespace treefarm {
 

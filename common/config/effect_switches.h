@@ -7,7 +7,7 @@
 
 namespace treefarm {
 
-/// What the table of effects (common/plan/effects/table.h) says about keys of a job.
+/// What the table of effects (common/config/effects/table.h) says about keys of a job.
 
 /// Job keys that switch an effect off stand below this: "effects.bump".
 inline constexpr char kEffectsPrefix[] = "effects.";

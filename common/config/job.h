@@ -7,7 +7,7 @@
 #include <string>
 
 #include "common/film/combination.h"
-#include "common/guiding/settings.h"
+#include "common/guiding/statistics/settings.h"
 
 namespace treefarm {
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/base/text/parse_text.h"
 #include "common/config/job_keys.h"
-#include "common/config/parse_text.h"
 
 namespace treefarm {
 

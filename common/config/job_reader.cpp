@@ -8,9 +8,9 @@
 #include <sstream>
 #include <string_view>
 
+#include "common/base/text/parse_text.h"
 #include "common/config/estimators.h"
 #include "common/config/job_keys.h"
-#include "common/config/parse_text.h"
 #include "common/config/presets.h"
 #include "common/config/toml_kind.h"
 #include "common/config/toml_settings.h"

@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <string_view>
 
-#include "common/config/parse_text.h"
+#include "common/base/text/parse_text.h"
 #include "common/config/toml_settings.h"
 
 namespace treefarm {

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <utility>
 
+#include "common/base/text/parse_text.h"
 #include "common/config/effect_switches.h"
-#include "common/config/parse_text.h"
 
 namespace treefarm {
 namespace {

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "common/base/parallel.h"
+#include "common/base/policy.h"
 #include "common/film/trimmed_mean.h"
-#include "common/plan/policy.h"
 
 namespace treefarm {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/base/policy.h"
 #include "common/base/random.h"
-#include "common/plan/policy.h"
 
 namespace treefarm {
 namespace {

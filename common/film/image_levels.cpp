@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "common/base/policy.h"
 #include "common/film/trimmed_mean.h"
 #include "common/math/level_block.h"
-#include "common/plan/policy.h"
 
 namespace treefarm {
 namespace {

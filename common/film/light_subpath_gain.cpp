@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/plan/policy.h"
+#include "common/base/policy.h"
 
 namespace treefarm {
 namespace {

@@ -20,8 +20,8 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/files/atomic_file.h"
 #include "common/base/parallel.h"
-#include "common/image/atomic_file.h"
 #include "common/image/exr.h"
 
 namespace treefarm {

@@ -6,12 +6,12 @@
 #include <limits>
 
 #include "common/base/error.h"
-#include "common/image/atomic_file.h"
-#include "common/image/encoded_image.h"
-#include "common/image/jpeg_decode.h"
-#include "common/image/png_decode.h"
+#include "common/base/files/atomic_file.h"
 #include "common/image/png_encode.h"
 #include "common/image/srgb.h"
+#include "coordinator/input/images/encoded_image.h"
+#include "coordinator/input/images/jpeg_decode.h"
+#include "coordinator/input/images/png_decode.h"
 
 namespace treefarm {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "common/image/image.h"
-#include "common/metrics/flip/plane.h"
+#include "common/metrics/plane.h"
 
 namespace treefarm {
 

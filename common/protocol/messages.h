@@ -12,7 +12,7 @@
 #include "common/film/pixel_estimate.h"
 #include "common/film/trace_stats.h"
 #include "common/film/work_unit.h"
-#include "common/plan/schedule.h"
+#include "common/plan/schedule/schedule.h"
 #include "common/protocol/envelope.h"
 
 namespace treefarm {

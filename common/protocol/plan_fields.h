@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/plan/schedule.h"
+#include "common/plan/schedule/schedule.h"
 
 namespace treefarm {
 

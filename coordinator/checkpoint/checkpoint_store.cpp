@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/files/atomic_file.h"
+#include "common/base/files/read_bytes.h"
 #include "common/base/hash.h"
+#include "common/base/text/parse_text.h"
 #include "common/config/aov_list.h"
-#include "common/config/parse_text.h"
-#include "common/image/atomic_file.h"
-#include "common/image/read_bytes.h"
-#include "common/plan/resolved_file.h"
+#include "common/plan/resolve/resolved_file.h"
 
 namespace treefarm {
 

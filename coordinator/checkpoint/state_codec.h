@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "coordinator/checkpoint/section_file.h"
-#include "coordinator/render_state.h"
+#include "coordinator/passes/render_state.h"
 
 namespace treefarm {
 

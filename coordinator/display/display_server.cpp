@@ -4,7 +4,7 @@
 #include <charconv>
 
 #include "common/base/error.h"
-#include "common/base/printable.h"
+#include "common/base/text/printable.h"
 
 namespace treefarm {
 

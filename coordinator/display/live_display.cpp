@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "common/base/timer.h"
-#include "coordinator/preview.h"
+#include "coordinator/display/preview.h"
 
 namespace treefarm {
 

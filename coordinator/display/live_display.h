@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "coordinator/display/display_client.h"
-#include "coordinator/pass_loop.h"
+#include "coordinator/passes/pass_loop.h"
 
 namespace treefarm {
 

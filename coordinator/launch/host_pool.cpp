@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "common/config/parse_text.h"
+#include "common/base/text/parse_text.h"
 
 namespace treefarm {
 

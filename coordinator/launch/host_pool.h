@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "coordinator/launch/life_status.h"
+#include "coordinator/run/life_status.h"
 
 namespace treefarm {
 

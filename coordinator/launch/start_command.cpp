@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/launch/start_command.h"
 
-#include "coordinator/launch/sign_of_life.h"
+#include "coordinator/run/sign_of_life.h"
 
 namespace treefarm {
 

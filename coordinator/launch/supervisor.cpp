@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "coordinator/pass_text.h"
+#include "coordinator/words/pass_text.h"
 
 namespace treefarm {
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "coordinator/launch/life_status.h"
 #include "coordinator/launch/restart_count.h"
+#include "coordinator/run/life_status.h"
 
 namespace treefarm {
 

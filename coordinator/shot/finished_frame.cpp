@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "common/base/files/atomic_file.h"
 #include "common/base/hash.h"
-#include "common/image/atomic_file.h"
-#include "common/plan/resolved_file.h"
+#include "common/plan/resolve/resolved_file.h"
 #include "common/scene/pack/scene_codec.h"
 
 namespace treefarm {

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "common/config/frames.h"
+#include "coordinator/shot/frames.h"
 
 namespace treefarm {
 

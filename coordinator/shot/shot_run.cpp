@@ -7,16 +7,16 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "common/base/reading_notice.h"
-#include "common/config/frames.h"
-#include "common/image/atomic_file.h"
-#include "coordinator/folder_content.h"
-#include "coordinator/folder_lock.h"
-#include "coordinator/last_files.h"
-#include "coordinator/pass_text.h"
-#include "coordinator/pulse.h"
-#include "coordinator/series_progress.h"
+#include "common/base/files/atomic_file.h"
+#include "coordinator/farm/pulse.h"
+#include "coordinator/run/folder_content.h"
+#include "coordinator/run/folder_lock.h"
+#include "coordinator/run/last_files.h"
 #include "coordinator/shot/finished_frame.h"
+#include "coordinator/shot/frames.h"
+#include "coordinator/words/pass_text.h"
+#include "coordinator/words/reading_notice.h"
+#include "coordinator/words/series_progress.h"
 
 namespace treefarm {
 

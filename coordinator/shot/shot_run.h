@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "coordinator/render_series.h"
+#include "coordinator/run/render_series.h"
 
 namespace treefarm {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/image/image.h"
-#include "coordinator/pass_loop.h"
+#include "coordinator/passes/pass_loop.h"
 
 namespace treefarm {
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <string>
 
-#include "common/config/study.h"
-#include "common/scene/readers/load.h"
-#include "coordinator/render_run.h"
+#include "coordinator/input/load.h"
+#include "coordinator/run/render_run.h"
+#include "coordinator/study/study.h"
 
 namespace treefarm {
 

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "common/config/study.h"
 #include "common/image/image.h"
 #include "coordinator/study/cell_request.h"
+#include "coordinator/study/study.h"
 
 namespace treefarm {
 

@@ -4,8 +4,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "common/base/printable.h"
-#include "coordinator/folder_content.h"
+#include "common/base/text/printable.h"
+#include "coordinator/run/folder_content.h"
 
 namespace treefarm {
 

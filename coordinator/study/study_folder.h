@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "common/config/study.h"
+#include "coordinator/study/study.h"
 
 namespace treefarm {
 

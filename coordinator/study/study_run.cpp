@@ -6,19 +6,19 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "common/base/reading_notice.h"
-#include "common/config/parse_text.h"
-#include "common/image/atomic_file.h"
+#include "common/base/files/atomic_file.h"
+#include "common/base/text/parse_text.h"
 #include "common/image/exr.h"
-#include "coordinator/folder_lock.h"
-#include "coordinator/pass_text.h"
-#include "coordinator/pulse.h"
-#include "coordinator/result_image.h"
-#include "coordinator/series_progress.h"
+#include "coordinator/farm/pulse.h"
+#include "coordinator/run/folder_lock.h"
+#include "coordinator/run/result_image.h"
 #include "coordinator/study/cell_record.h"
 #include "coordinator/study/cell_request.h"
 #include "coordinator/study/reference.h"
 #include "coordinator/study/study_folder.h"
+#include "coordinator/words/pass_text.h"
+#include "coordinator/words/reading_notice.h"
+#include "coordinator/words/series_progress.h"
 
 namespace treefarm {
 

@@ -4,8 +4,8 @@
 #include <functional>
 #include <ostream>
 
-#include "common/config/study.h"
-#include "coordinator/render_series.h"
+#include "coordinator/run/render_series.h"
+#include "coordinator/study/study.h"
 
 namespace treefarm {
 

@@ -13,8 +13,8 @@
 #include "common/base/hash.h"
 #include "common/comm/in_process_channel.h"
 #include "common/config/aov_list.h"
-#include "coordinator/farm.h"
-#include "coordinator/pass_loop.h"
+#include "coordinator/farm/farm.h"
+#include "coordinator/passes/pass_loop.h"
 #include "tests/support/fake_work.h"
 #include "worker/worker_loop.h"
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <filesystem>
 
-#include "common/plan/resolved_file.h"
+#include "common/plan/resolve/resolved_file.h"
 #include "coordinator/checkpoint/checkpoint_store.h"
 #include "tests/fault/farm_fixture.h"
 #include "tests/support/test_folder.h"

@@ -7,8 +7,8 @@
 
 #include "common/config/job_reader.h"
 #include "common/scene/pack/scene_codec.h"
-#include "common/scene/readers/load.h"
-#include "common/scene/readers/meshes/obj_file.h"
+#include "coordinator/input/load.h"
+#include "coordinator/input/meshes/obj_file.h"
 #include "tests/support/support.h"
 #include "tests/support/test_folder.h"
 

@@ -3,7 +3,7 @@
 #include <deque>
 #include <map>
 
-#include "coordinator/farm.h"
+#include "coordinator/farm/farm.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/message_script.h"
 #include "tests/support/fake_work.h"

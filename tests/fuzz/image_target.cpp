@@ -6,7 +6,7 @@
 #include "common/base/error.h"
 #include "common/image/exr.h"
 #include "common/image/png.h"
-#include "common/image/stored_image.h"
+#include "coordinator/input/images/stored_image.h"
 #include "tests/fuzz/memory_file.h"
 
 namespace treefarm::fuzz {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdlib>
 
-#include "common/scene/readers/meshes/obj_file.h"
+#include "coordinator/input/meshes/obj_file.h"
 #include "tests/fuzz/fuzz.h"
 
 using namespace treefarm;

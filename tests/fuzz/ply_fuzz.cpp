@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdlib>
 
-#include "common/scene/readers/meshes/ply_file.h"
+#include "coordinator/input/meshes/ply_file.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/support/mesh_bytes.h"
 

@@ -2,7 +2,7 @@
 #include <cstdlib>
 
 #include "common/base/error.h"
-#include "common/plan/schedule_file.h"
+#include "common/plan/schedule/schedule_file.h"
 #include "tests/fuzz/fuzz.h"
 
 using namespace treefarm;

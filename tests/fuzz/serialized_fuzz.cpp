@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "common/scene/readers/meshes/serialized_file.h"
+#include "coordinator/input/meshes/serialized_file.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/support/mesh_bytes.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/config/study.h"
+#include "coordinator/study/study.h"
 #include "tests/fuzz/fuzz.h"
 
 using namespace treefarm;

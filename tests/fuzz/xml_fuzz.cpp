@@ -5,9 +5,9 @@
 #include <fstream>
 
 #include "common/image/exr.h"
-#include "common/scene/lint/lint.h"
 #include "common/scene/pack/scene_codec.h"
-#include "common/scene/readers/load.h"
+#include "coordinator/input/lint/lint.h"
+#include "coordinator/input/load.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/memory_file.h"
 #include "tests/fuzz/xml_seeds.h"

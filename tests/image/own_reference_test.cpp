@@ -5,7 +5,7 @@
 
 #include "common/config/job_reader.h"
 #include "common/image/exr.h"
-#include "common/scene/readers/load.h"
+#include "coordinator/input/load.h"
 #include "tests/support/rendered.h"
 
 namespace treefarm {

@@ -6,7 +6,7 @@
 #include "common/image/exr.h"
 #include "common/metrics/error_metrics.h"
 #include "common/metrics/z_test.h"
-#include "common/scene/readers/load.h"
+#include "coordinator/input/load.h"
 #include "tests/support/local_render.h"
 #include "tests/support/support.h"
 

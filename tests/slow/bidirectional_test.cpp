@@ -9,8 +9,8 @@
 
 #include "common/config/job_reader.h"
 #include "common/metrics/z_test.h"
-#include "common/plan/effects.h"
-#include "common/scene/readers/load.h"
+#include "common/plan/effects/effects.h"
+#include "coordinator/input/load.h"
 #include "tests/support/rendered.h"
 
 namespace treefarm {

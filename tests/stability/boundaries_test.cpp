@@ -3,7 +3,7 @@
 #include <random>
 
 #include "common/base/error.h"
-#include "common/scene/check/validate.h"
+#include "coordinator/input/check/validate.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/material_scenes.h"
 #include "worker/integrators/path/glass_splits.h"

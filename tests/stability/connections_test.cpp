@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light from both ends where connections are short, grazing or long, at any scale and through any lens.
-#include "common/plan/learning.h"
+#include "common/plan/schedule/learning.h"
 #include "tests/support/both_ends.h"
 #include "tests/support/material_scenes.h"
 #include "tests/support/scaled_scene.h"
-#include "worker/integrators/registry.h"
+#include "worker/registry.h"
 
 namespace treefarm {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rough and smooth surfaces at the ends of their parameters.
 #include "common/base/random.h"
-#include "common/scene/check/validate.h"
+#include "coordinator/input/check/validate.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/material_scenes.h"
 

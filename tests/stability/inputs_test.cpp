@@ -2,7 +2,7 @@
 // What scene files may hold: transforms without volume, normals and texels that are no numbers, suns of no size.
 #include "common/base/error.h"
 #include "common/image/exr.h"
-#include "common/scene/check/validate.h"
+#include "coordinator/input/check/validate.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/mitsuba_fixture.h"
 #include "tests/support/refusal.h"

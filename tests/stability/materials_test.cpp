@@ -4,7 +4,7 @@
 #include <typeinfo>
 
 #include "common/base/random.h"
-#include "common/scene/check/validate.h"
+#include "coordinator/input/check/validate.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/kind_scenes.h"
 #include "tests/support/material_scenes.h"

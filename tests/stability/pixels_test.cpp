@@ -5,7 +5,7 @@
 
 #include "common/film/pass_film.h"
 #include "common/image/exr.h"
-#include "common/plan/schedule.h"
+#include "common/plan/schedule/schedule.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/resolved.h"
 #include "tests/support/test_scenes.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenes whose light is rare, or hidden, or comes from a weak emitter: what is decided there.
-#include "common/scene/readers/load.h"
+#include "coordinator/input/load.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/scaled_scene.h"
 #include "tests/support/support.h"

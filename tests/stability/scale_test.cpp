@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "common/scene/readers/load.h"
+#include "coordinator/input/load.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/material_scenes.h"
 #include "tests/support/resolved.h"

@@ -2,10 +2,10 @@
 // Spatial trees of scenes without extent, of coincident points, and of extreme light.
 #include <random>
 
+#include "common/base/policy.h"
 #include "common/guiding/regions/mixture.h"
 #include "common/guiding/sd_tree/refine.h"
 #include "common/guiding/statistics/cell_accumulator.h"
-#include "common/plan/policy.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/test_scenes.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Weights and probabilities at the ends of their ranges.
 #include "common/base/random.h"
-#include "common/scene/check/validate.h"
+#include "coordinator/input/check/validate.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/material_scenes.h"
 #include "worker/integrators/subpath/mis.h"

@@ -3,7 +3,7 @@
 // from, and whether they are traced at all. With more emitters than are chosen one by one.
 #include <gtest/gtest.h>
 
-#include "common/scene/readers/load.h"
+#include "coordinator/input/load.h"
 #include "tests/support/rendered.h"
 #include "tests/support/support.h"
 #include "tests/support/test_scenes.h"

@@ -7,11 +7,11 @@
 #include <string>
 #include <tuple>
 
+#include "common/base/policy.h"
 #include "common/config/job_reader.h"
 #include "common/film/image_levels.h"
 #include "common/metrics/z_test.h"
-#include "common/plan/policy.h"
-#include "common/scene/readers/load.h"
+#include "coordinator/input/load.h"
 #include "tests/support/local_render.h"
 #include "tests/support/material_scenes.h"
 #include "tests/support/rendered.h"

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "common/film/error_estimate.h"
-#include "common/scene/readers/load.h"
+#include "coordinator/input/load.h"
 #include "tests/support/local_render.h"
 #include "tests/support/resolved.h"
 #include "tests/support/support.h"

@@ -5,7 +5,7 @@
 
 #include "common/config/job.h"
 #include "common/metrics/z_test.h"
-#include "common/scene/readers/load.h"
+#include "coordinator/input/load.h"
 #include "tests/support/local_render.h"
 #include "tests/support/material_scenes.h"
 #include "tests/support/support.h"

@@ -9,7 +9,7 @@
 #include <variant>
 
 #include "common/math/vec.h"
-#include "common/scene/readers/load.h"
+#include "coordinator/input/load.h"
 #include "tests/support/aov_render.h"
 
 namespace treefarm {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/config/job_reader.h"
-#include "common/scene/readers/load.h"
+#include "coordinator/input/load.h"
 #include "tests/support/chi_square.h"
 #include "tests/support/rendered.h"
 #include "tests/support/support.h"

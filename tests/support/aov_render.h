@@ -7,11 +7,11 @@
 #include "common/base/error.h"
 #include "common/config/aov_list.h"
 #include "common/film/aov_film.h"
-#include "common/plan/kernel.h"
-#include "common/plan/learning.h"
+#include "common/plan/schedule/kernel.h"
+#include "common/plan/schedule/learning.h"
 #include "common/scene/pack/scene_codec.h"
 #include "tests/support/material_scenes.h"
-#include "worker/integrators/registry.h"
+#include "worker/registry.h"
 
 namespace treefarm::test {
 

@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "common/film/pass_film.h"
-#include "common/plan/kernel.h"
-#include "common/plan/learning.h"
-#include "coordinator/render_state.h"
-#include "worker/integrators/registry.h"
+#include "common/plan/schedule/kernel.h"
+#include "common/plan/schedule/learning.h"
+#include "coordinator/passes/render_state.h"
+#include "worker/registry.h"
 
 namespace treefarm::test {
 namespace {

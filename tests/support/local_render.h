@@ -7,9 +7,9 @@
 #include "common/film/splat_film.h"
 #include "common/film/trace_stats.h"
 #include "common/guiding/any_guide.h"
-#include "common/plan/budget.h"
+#include "common/plan/forecast/budget.h"
 #include "common/scene/model/scene.h"
-#include "coordinator/pass_report.h"
+#include "coordinator/passes/pass_report.h"
 
 namespace treefarm::test {
 

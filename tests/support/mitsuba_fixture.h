@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "common/scene/readers/load.h"
+#include "coordinator/input/load.h"
 #include "tests/support/refusal.h"
 #include "tests/support/test_folder.h"
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "common/plan/kernel.h"
-#include "common/plan/resolve.h"
+#include "common/plan/resolve/resolve.h"
+#include "common/plan/schedule/kernel.h"
 #include "worker/integrators/path/tile_renderer.h"
 #include "worker/tools/describe_sample.h"
 

@@ -13,7 +13,7 @@
 #include "common/config/estimators.h"
 #include "common/config/job_reader.h"
 #include "common/film/aov_film.h"
-#include "common/plan/memory.h"
+#include "common/plan/forecast/memory.h"
 #include "tests/support/test_scenes.h"
 
 namespace treefarm {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/random.h"
-#include "common/scene/model/material_traits.h"
+#include "common/scene/uses/material_traits.h"
 #include "tests/support/bsdf_samples.h"
 #include "tests/support/material_scenes.h"
 

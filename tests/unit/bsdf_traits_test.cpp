@@ -5,7 +5,7 @@
 #include <typeinfo>
 
 #include "common/base/random.h"
-#include "common/scene/model/material_traits.h"
+#include "common/scene/uses/material_traits.h"
 #include "tests/support/kind_scenes.h"
 #include "worker/shading/bsdf_builder.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Open budgets against simulated renders: a clock and an error that follow a rule.
-#include "common/plan/budget.h"
+#include "common/plan/forecast/budget.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "common/base/policy.h"
 #include "common/film/combine.h"
-#include "common/plan/policy.h"
 #include "tests/support/resolved.h"
 
 namespace treefarm {

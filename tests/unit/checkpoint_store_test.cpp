@@ -8,7 +8,7 @@
 #include "common/base/error.h"
 #include "common/config/aov_list.h"
 #include "common/film/pixel_codec.h"
-#include "common/plan/memory.h"
+#include "common/plan/forecast/memory.h"
 #include "tests/support/refusal.h"
 #include "tests/support/test_folder.h"
 #include "tests/support/test_scenes.h"

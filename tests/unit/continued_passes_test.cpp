@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "common/plan/budget.h"
+#include "common/plan/forecast/budget.h"
 #include "tests/support/resolved.h"
 
 namespace treefarm {

@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <limits>
 
+#include "cli/picture_of_layer.h"
+#include "cli/tonemap.h"
 #include "common/image/exr.h"
-#include "common/image/picture_of_layer.h"
 #include "common/image/png.h"
-#include "common/image/stored_image.h"
-#include "common/image/tonemap.h"
+#include "coordinator/input/images/stored_image.h"
 #include "tests/support/command.h"
 #include "tests/support/test_folder.h"
 

@@ -2,8 +2,8 @@
 // Why an image may be black: what dark_causes() finds, and that it finds nothing where there is light.
 #include <gtest/gtest.h>
 
-#include "common/scene/lint/lint.h"
-#include "common/scene/readers/load.h"
+#include "coordinator/input/lint/lint.h"
+#include "coordinator/input/load.h"
 #include "tests/support/support.h"
 #include "tests/support/test_scenes.h"
 

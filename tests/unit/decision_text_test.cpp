@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/decision_text.h"
+#include "coordinator/words/decision_text.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <regex>
 
 #include "common/config/job_keys.h"
-#include "common/plan/effect_table.h"
-#include "common/plan/policy_table.h"
+#include "common/plan/effects/effect_table.h"
+#include "common/plan/resolve/policy_table.h"
 #include "common/protocol/fingerprint.h"
 #include "common/scene/kinds/kind_documentation.h"
 #include "tests/support/test_folder.h"

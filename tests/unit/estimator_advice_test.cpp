@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which estimator is recommended for a scene, and what a few rays say of how light comes to what is seen.
-#include "common/plan/estimator_advice.h"
+#include "coordinator/input/lint/estimator_advice.h"
 
 #include <gtest/gtest.h>
 
-#include "common/scene/lint/light_reach.h"
-#include "common/scene/readers/load.h"
+#include "coordinator/input/lint/light_reach.h"
+#include "coordinator/input/load.h"
 #include "tests/support/test_scenes.h"
 
 namespace treefarm {

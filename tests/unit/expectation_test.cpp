@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/plan/expectation.h"
+#include "common/plan/forecast/expectation.h"
 
 #include <gtest/gtest.h>
 

@@ -15,7 +15,7 @@
 #include <limits>
 
 #include "common/base/error.h"
-#include "common/image/atomic_file.h"
+#include "common/base/files/atomic_file.h"
 #include "tests/support/refusal.h"
 #include "tests/support/test_folder.h"
 

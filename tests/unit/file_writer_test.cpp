@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files beside a render: none waits for a disk, none ends it.
-#include "coordinator/file_writer.h"
+#include "coordinator/run/file_writer.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -10,9 +10,9 @@
 #include <fstream>
 #include <future>
 
-#include "common/image/atomic_file.h"
-#include "coordinator/last_files.h"
-#include "coordinator/preview.h"
+#include "common/base/files/atomic_file.h"
+#include "coordinator/display/preview.h"
+#include "coordinator/run/last_files.h"
 #include "tests/support/test_folder.h"
 
 namespace treefarm {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/plan/kernel.h"
+#include "common/plan/schedule/kernel.h"
 #include "tests/support/aov_render.h"
 #include "tests/support/local_render.h"
 

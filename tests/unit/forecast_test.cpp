@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Forecasts of what an error costs, from passes whose future is known.
-#include "common/plan/forecast.h"
+#include "common/plan/forecast/forecast.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "common/base/policy.h"
 #include "common/film/combine.h"
-#include "common/plan/policy.h"
 #include "tests/support/resolved.h"
 
 namespace treefarm {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/config/frames.h"
+#include "coordinator/shot/frames.h"
 
 #include <gtest/gtest.h>
 

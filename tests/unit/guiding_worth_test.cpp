@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "common/plan/guiding_verdict.h"
-#include "common/plan/learning.h"
-#include "coordinator/render_state.h"
+#include "common/plan/schedule/guiding_verdict.h"
+#include "common/plan/schedule/learning.h"
+#include "coordinator/passes/render_state.h"
 #include "tests/support/resolved.h"
 #include "worker/integrators/path/unguided_twin.h"
 

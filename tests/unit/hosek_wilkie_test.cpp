@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/scene/colour/hosek_wilkie.h"
+#include "coordinator/input/colour/hosek_wilkie.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "common/scene/colour/daylight.h"
+#include "coordinator/input/colour/daylight.h"
 
 namespace treefarm::mitsuba {
 namespace {

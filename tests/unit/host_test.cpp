@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "coordinator/memory_check.h"
+#include "coordinator/farm/memory_check.h"
 #include "tests/support/refusal.h"
 
 namespace treefarm {

@@ -8,8 +8,8 @@
 
 #include "common/base/error.h"
 #include "common/image/exr.h"
-#include "common/image/hdr.h"
-#include "common/image/stored_image.h"
+#include "coordinator/input/images/hdr.h"
+#include "coordinator/input/images/stored_image.h"
 #include "tests/support/refusal.h"
 #include "tests/support/tiny_images.h"
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/config/job_reader.h"
-#include "common/plan/resolved_file.h"
+#include "common/plan/resolve/resolved_file.h"
 #include "tests/support/command.h"
 #include "tests/support/support.h"
 #include "tests/support/test_folder.h"

@@ -13,15 +13,15 @@
 #include "common/config/estimators.h"
 #include "common/config/job_keys.h"
 #include "common/config/techniques.h"
-#include "common/plan/effects.h"
-#include "common/plan/kernel.h"
-#include "common/plan/learning.h"
-#include "common/plan/plan_text.h"
+#include "common/plan/effects/effects.h"
+#include "common/plan/effects/plan_text.h"
+#include "common/plan/schedule/kernel.h"
+#include "common/plan/schedule/learning.h"
 #include "common/scene/pack/scene_codec.h"
 #include "tests/support/guide_types.h"
 #include "tests/support/local_render.h"
 #include "tests/support/test_scenes.h"
-#include "worker/integrators/registry.h"
+#include "worker/registry.h"
 
 namespace treefarm {
 namespace {

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "common/base/text/parse_text.h"
 #include "common/config/check_job.h"
 #include "common/config/job_keys.h"
 #include "common/config/job_reader.h"
-#include "common/config/parse_text.h"
 #include "tests/support/refusal.h"
 #include "tests/support/support.h"
 

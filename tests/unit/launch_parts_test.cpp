@@ -10,13 +10,13 @@
 #include <set>
 #include <thread>
 
-#include "cli/host_keys.h"
-#include "cli/host_probe.h"
 #include "common/comm/run_key.h"
-#include "coordinator/folder_content.h"
+#include "coordinator/launch/host_keys.h"
 #include "coordinator/launch/host_pool.h"
-#include "coordinator/launch/sign_of_life.h"
+#include "coordinator/launch/host_probe.h"
 #include "coordinator/launch/start_command.h"
+#include "coordinator/run/folder_content.h"
+#include "coordinator/run/sign_of_life.h"
 
 namespace treefarm {
 namespace {

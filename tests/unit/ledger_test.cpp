@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/ledger.h"
+#include "coordinator/farm/ledger.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What inspection of a scene finds, and none where there is none; as a command: check_command_test.
-#include "common/scene/lint/lint.h"
+#include "coordinator/input/lint/lint.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
-#include "common/scene/readers/load.h"
+#include "coordinator/input/load.h"
 #include "tests/support/support.h"
 #include "tests/support/test_scenes.h"
 

@@ -9,7 +9,7 @@
 #include <future>
 #include <thread>
 
-#include "common/base/printable.h"
+#include "common/base/text/printable.h"
 #include "tests/support/test_folder.h"
 
 namespace treefarm {

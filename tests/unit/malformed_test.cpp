@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "common/config/job_reader.h"
-#include "common/scene/readers/load.h"
+#include "coordinator/input/load.h"
 #include "tests/support/test_folder.h"
 
 namespace treefarm {

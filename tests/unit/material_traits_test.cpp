@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/scene/model/material_traits.h"
+#include "common/scene/uses/material_traits.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 // Colours of meshes wherever a texture may stand, against images that are the same function.
 #include <gtest/gtest.h>
 
-#include "common/scene/check/validate.h"
-#include "common/scene/readers/meshes/mesh_normals.h"
+#include "coordinator/input/check/validate.h"
+#include "coordinator/input/meshes/mesh_normals.h"
 #include "tests/support/local_render.h"
 #include "tests/support/material_scenes.h"
 

@@ -266,7 +266,7 @@ TEST_F(MitsubaCures, AreAllTried) {
         for (const char version : std::string(fault.versions))
             if (const auto error = refusal(document(fault.body, version))) tried += error->cure() + "\n";
     const std::vector<Refusal> refusals =
-        refusals_in(std::string(TREEFARM_SOURCE_DIR) + "/common/scene/readers/mitsuba");
+        refusals_in(std::string(TREEFARM_SOURCE_DIR) + "/coordinator/input/mitsuba");
     EXPECT_GT(refusals.size(), 100u);
     std::size_t mechanical = 0;
     for (const Refusal& found : refusals)

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "common/image/exr.h"
-#include "common/scene/readers/mitsuba/blackbody.h"
+#include "coordinator/input/mitsuba/blackbody.h"
 #include "tests/support/mitsuba_fixture.h"
 #include "tests/support/refusal.h"
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "common/image/exr.h"
-#include "common/scene/colour/daylight.h"
+#include "coordinator/input/colour/daylight.h"
 #include "tests/support/mitsuba_fixture.h"
 #include "tests/support/support.h"
 

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "common/base/error.h"
+#include "common/base/policy.h"
 #include "common/guiding/sd_tree/refine.h"
 #include "common/guiding/sd_tree/sd_tree.h"
-#include "common/plan/policy.h"
 
 namespace treefarm {
 namespace {

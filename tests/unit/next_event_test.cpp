@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "common/base/error.h"
+#include "common/base/policy.h"
 #include "common/base/random.h"
 #include "common/guiding/sd_tree/sd_tree_sampler.h"
 #include "common/guiding/sd_tree/tree_learner.h"
 #include "common/guiding/statistics/cell_accumulator.h"
-#include "common/plan/policy.h"
 
 namespace treefarm {
 namespace {

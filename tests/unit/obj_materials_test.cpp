@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "common/scene/readers/meshes/mtl_file.h"
+#include "coordinator/input/meshes/mtl_file.h"
 #include "tests/support/mitsuba_fixture.h"
 
 namespace treefarm {

@@ -3,9 +3,9 @@
 
 #include <fstream>
 
-#include "common/scene/readers/load.h"
-#include "common/scene/readers/meshes/obj_file.h"
-#include "common/scene/readers/meshes/triangulate.h"
+#include "coordinator/input/load.h"
+#include "coordinator/input/meshes/obj_file.h"
+#include "coordinator/input/meshes/triangulate.h"
 #include "tests/support/test_folder.h"
 
 namespace treefarm {

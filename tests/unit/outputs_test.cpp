@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "common/image/exr.h"
-#include "common/image/stored_image.h"
+#include "coordinator/input/images/stored_image.h"
 #include "tests/support/command.h"
 #include "tests/support/test_folder.h"
 

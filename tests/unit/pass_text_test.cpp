@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is said of a pass to a person.
-#include "coordinator/pass_text.h"
+#include "coordinator/words/pass_text.h"
 
 #include <gtest/gtest.h>
 

@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "common/image/color_channels.h"
 #include "common/image/exr.h"
-#include "common/image/hdr.h"
-#include "common/image/stored_image.h"
+#include "coordinator/input/images/color_channels.h"
+#include "coordinator/input/images/hdr.h"
+#include "coordinator/input/images/stored_image.h"
 #include "tests/support/refusal.h"
 
 namespace treefarm {

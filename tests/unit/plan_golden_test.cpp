@@ -5,8 +5,8 @@
 #include <set>
 
 #include "common/config/job_reader.h"
-#include "common/plan/effects.h"
-#include "common/scene/readers/load.h"
+#include "common/plan/effects/effects.h"
+#include "coordinator/input/load.h"
 #include "tests/support/support.h"
 
 namespace treefarm {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "common/scene/readers/meshes/ply_file.h"
+#include "coordinator/input/meshes/ply_file.h"
 #include "tests/support/mesh_bytes.h"
 #include "tests/support/refusal.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far a render or a study is, and how long it still takes.
-#include "coordinator/progress.h"
+#include "coordinator/words/progress.h"
 
 #include <gtest/gtest.h>
 
-#include "coordinator/series_progress.h"
+#include "coordinator/words/series_progress.h"
 
 namespace treefarm {
 namespace {

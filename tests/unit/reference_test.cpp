@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "common/config/job_reader.h"
-#include "common/scene/readers/load.h"
+#include "coordinator/input/load.h"
 #include "tests/support/local_render.h"
 #include "tests/support/support.h"
 #include "tests/support/test_scenes.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/plan/resolve.h"
+#include "common/plan/resolve/resolve.h"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <fstream>
 #include <sstream>
 
+#include "common/base/policy.h"
 #include "common/config/job_keys.h"
 #include "common/config/job_reader.h"
-#include "common/plan/policy.h"
-#include "common/plan/resolved_file.h"
-#include "common/plan/schedule.h"
+#include "common/plan/resolve/resolved_file.h"
+#include "common/plan/schedule/schedule.h"
 #include "tests/support/refusal.h"
 
 namespace treefarm {

@@ -7,14 +7,14 @@
 
 #include "common/base/hash.h"
 #include "common/comm/in_process_channel.h"
-#include "common/plan/learning.h"
-#include "common/plan/resolved_file.h"
+#include "common/plan/resolve/resolved_file.h"
+#include "common/plan/schedule/learning.h"
 #include "common/scene/pack/scene_codec.h"
-#include "common/scene/readers/load.h"
 #include "coordinator/checkpoint/checkpoint_store.h"
-#include "coordinator/pass_loop.h"
+#include "coordinator/input/load.h"
+#include "coordinator/passes/pass_loop.h"
 #include "tests/support/support.h"
-#include "worker/integrators/registry.h"
+#include "worker/registry.h"
 #include "worker/worker_loop.h"
 
 namespace treefarm {

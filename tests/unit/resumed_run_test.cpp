@@ -11,11 +11,11 @@
 #include <thread>
 
 #include "common/comm/in_process_channel.h"
-#include "coordinator/render_run.h"
+#include "coordinator/run/render_run.h"
 #include "coordinator/shot/shot_run.h"
 #include "tests/support/test_folder.h"
 #include "tests/support/test_scenes.h"
-#include "worker/integrators/registry.h"
+#include "worker/registry.h"
 #include "worker/worker_loop.h"
 
 namespace treefarm {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/roster.h"
+#include "coordinator/farm/roster.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whose a run directory is, and what becomes of what it held.
-#include "coordinator/run_folder.h"
+#include "coordinator/run/run_folder.h"
 
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
-#include "coordinator/folder_content.h"
+#include "coordinator/run/folder_content.h"
 #include "tests/support/refusal.h"
 #include "tests/support/test_folder.h"
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/scene/readers/load.h"
+#include "coordinator/input/load.h"
 #include "tests/support/every_kind.h"
 #include "tests/support/kind_scenes.h"
 #include "tests/support/support.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the worker is told of the plan: its kernels, and the effects of a scene.
-#include "common/plan/scene_effects.h"
+#include "common/plan/effects/scene_effects.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a scene of somebody else may read and take.
-#include "common/scene/readers/scene_limits.h"
+#include "coordinator/input/check/scene_limits.h"
 
 #include <gtest/gtest.h>
 
 #include "common/image/png.h"
-#include "common/scene/readers/load.h"
+#include "coordinator/input/load.h"
 #include "tests/support/refusal.h"
 #include "tests/support/test_folder.h"
 

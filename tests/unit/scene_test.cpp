@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "common/scene/check/validate.h"
+#include "coordinator/input/check/validate.h"
 #include "tests/support/refusal.h"
 
 namespace treefarm {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/plan/schedule_file.h"
+#include "common/plan/schedule/schedule_file.h"
 
 #include <gtest/gtest.h>
 

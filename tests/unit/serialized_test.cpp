@@ -4,7 +4,7 @@
 #include <limits>
 #include <sstream>
 
-#include "common/scene/readers/meshes/serialized_file.h"
+#include "coordinator/input/meshes/serialized_file.h"
 #include "tests/support/mesh_bytes.h"
 
 namespace treefarm {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "common/scene/colour/cie_1931.h"
-#include "common/scene/colour/spectra.h"
-#include "common/scene/readers/mitsuba/colors.h"
+#include "coordinator/input/colour/cie_1931.h"
+#include "coordinator/input/colour/spectra.h"
+#include "coordinator/input/mitsuba/colors.h"
 
 namespace treefarm::mitsuba {
 namespace {

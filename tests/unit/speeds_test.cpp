@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How work is handed out by speed, on a simulated clock: workers of given speeds, results now and then, copies at the
 // end, as the farm does it.
-#include "coordinator/speeds.h"
+#include "coordinator/farm/speeds.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <functional>
 #include <limits>
 
-#include "coordinator/result_pace.h"
+#include "coordinator/farm/result_pace.h"
 
 namespace treefarm {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The quantum of a scene's splats: about a millionth of what a light path brings to the film.
-#include "common/plan/splat_quantum.h"
+#include "common/plan/resolve/splat_quantum.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "common/plan/resolve.h"
-#include "common/plan/schedule.h"
+#include "common/plan/resolve/resolve.h"
+#include "common/plan/schedule/schedule.h"
 #include "tests/support/test_scenes.h"
 
 namespace treefarm {

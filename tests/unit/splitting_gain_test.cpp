@@ -7,11 +7,11 @@
 #include <cmath>
 #include <limits>
 
+#include "common/base/policy.h"
 #include "common/film/emission_shares.h"
 #include "common/film/splat_film.h"
-#include "common/plan/budget.h"
-#include "common/plan/policy.h"
-#include "common/plan/schedule.h"
+#include "common/plan/forecast/budget.h"
+#include "common/plan/schedule/schedule.h"
 #include "tests/support/resolved.h"
 #include "worker/integrators/path/split_paths.h"
 

@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "common/base/log.h"
-#include "common/base/reading_notice.h"
+#include "coordinator/words/reading_notice.h"
 
 namespace treefarm {
 namespace {

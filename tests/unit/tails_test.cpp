@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "common/film/noise_share.h"
-#include "coordinator/tail_report.h"
+#include "coordinator/words/tail_report.h"
 #include "tests/support/local_render.h"
 #include "tests/support/material_scenes.h"
 #include "tests/support/resolved.h"

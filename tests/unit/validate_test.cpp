@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/scene/check/validate.h"
+#include "coordinator/input/check/validate.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include "common/config/job.h"
 #include "common/film/work_unit.h"
 #include "common/guiding/any_guide.h"
-#include "common/plan/schedule.h"
+#include "common/plan/schedule/schedule.h"
 #include "worker/integrators/unit_output.h"
 #include "worker/scene/trace_scene.h"
 

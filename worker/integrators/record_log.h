@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "common/guiding/settings.h"
 #include "common/guiding/statistics/cell_sums.h"
+#include "common/guiding/statistics/settings.h"
 
 namespace treefarm {
 

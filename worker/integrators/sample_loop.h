@@ -6,7 +6,7 @@
 #include "common/base/timer.h"
 #include "common/film/pass_film.h"
 #include "common/film/work_unit.h"
-#include "common/plan/schedule.h"
+#include "common/plan/schedule/schedule.h"
 #include "worker/integrators/unit_output.h"
 #include "worker/scene/trace_scene.h"
 

@@ -3,8 +3,8 @@
 
 #include <cassert>
 
-#include "common/plan/learning.h"
-#include "common/scene/model/material_traits.h"
+#include "common/plan/schedule/learning.h"
+#include "common/scene/uses/material_traits.h"
 
 namespace treefarm {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/config/job.h"
-#include "common/plan/scene_effects.h"
+#include "common/plan/effects/scene_effects.h"
 #include "common/scene/model/scene.h"
 #include "worker/camera/camera_rays.h"
 #include "worker/lights/emitters.h"

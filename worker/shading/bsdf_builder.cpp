@@ -6,7 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/math/frame.h"
-#include "common/scene/model/material_traits.h"
+#include "common/scene/uses/material_traits.h"
 #include "common/scene/uses/material_uses.h"
 
 namespace treefarm {

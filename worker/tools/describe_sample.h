@@ -5,7 +5,7 @@
 #include <string>
 
 #include "common/guiding/any_guide.h"
-#include "common/plan/schedule.h"
+#include "common/plan/schedule/schedule.h"
 #include "worker/scene/trace_scene.h"
 
 namespace treefarm {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/guiding/any_guide.h"
-#include "common/plan/resolve.h"
+#include "common/plan/resolve/resolve.h"
 #include "worker/scene/trace_scene.h"
 
 namespace treefarm {

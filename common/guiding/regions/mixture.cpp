@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/base/error.h"
-#include "common/plan/policy.h"
+#include "common/base/policy.h"
 
 namespace treefarm {
 namespace {

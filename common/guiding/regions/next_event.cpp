@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "common/plan/policy.h"
+#include "common/base/policy.h"
 
 namespace treefarm {
 namespace {

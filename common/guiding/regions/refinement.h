@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "common/guiding/settings.h"
+#include "common/guiding/statistics/settings.h"
 
 namespace treefarm {
 

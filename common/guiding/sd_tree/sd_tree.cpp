@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/guiding/sd_tree/sd_tree.h"
 
-#include "common/plan/policy.h"
+#include "common/base/policy.h"
 
 namespace treefarm {
 

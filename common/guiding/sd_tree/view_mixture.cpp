@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "common/base/error.h"
-#include "common/plan/policy.h"
+#include "common/base/policy.h"
 
 namespace treefarm {
 namespace {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "common/base/prefetch.h"
-#include "common/guiding/settings.h"
 #include "common/guiding/statistics/box_filter.h"
 #include "common/guiding/statistics/cell_sums.h"
+#include "common/guiding/statistics/settings.h"
 
 namespace treefarm {
 

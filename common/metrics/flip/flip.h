@@ -3,7 +3,7 @@
 
 #include "common/image/image.h"
 #include "common/metrics/flip/kernels.h"
-#include "common/metrics/flip/plane.h"
+#include "common/metrics/plane.h"
 
 namespace treefarm {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "common/metrics/flip/plane.h"
+#include "common/metrics/plane.h"
 
 namespace treefarm {
 

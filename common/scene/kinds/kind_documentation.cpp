@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/scene/kinds/kind_documentation.h"
 
-#include "common/config/parse_text.h"
+#include "common/base/text/parse_text.h"
 #include "common/scene/kinds/kind_name.h"
 #include "common/scene/model/scene.h"
 

@@ -4,7 +4,7 @@
 #include "common/base/error.h"
 #include "common/math/vec.h"
 #include "common/scene/kinds/textures.h"
-#include "common/scene/model/texture_image.h"
+#include "common/scene/kinds/traits/texture_image.h"
 
 namespace treefarm {
 

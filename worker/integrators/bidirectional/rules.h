@@ -2,7 +2,7 @@
 #pragma once
 
 #include "common/config/techniques.h"
-#include "common/plan/schedule.h"
+#include "common/plan/schedule/schedule.h"
 #include "worker/integrators/subpath/roulette.h"
 #include "worker/integrators/subpath/technique_sums.h"
 #include "worker/scene/trace_scene.h"

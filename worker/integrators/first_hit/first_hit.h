@@ -5,7 +5,7 @@
 
 #include "common/film/aov_film.h"
 #include "common/film/work_unit.h"
-#include "common/plan/schedule.h"
+#include "common/plan/schedule/schedule.h"
 #include "common/scene/model/scene.h"
 #include "worker/scene/trace_scene.h"
 

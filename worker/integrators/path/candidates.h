@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "common/plan/policy.h"
+#include "common/base/policy.h"
 #include "worker/integrators/path/scatter_sample.h"
 
 namespace treefarm {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "common/plan/policy.h"
+#include "common/base/policy.h"
 #include "worker/geometry/ray.h"
 #include "worker/integrators/path/path_state.h"
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <span>
 
+#include "common/base/policy.h"
 #include "common/base/random.h"
 #include "common/film/trace_stats.h"
-#include "common/plan/policy.h"
 #include "worker/integrators/path/path_state.h"
 
 namespace treefarm {

@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "common/guiding/any_guide.h"
-#include "common/plan/resolve.h"
-#include "common/plan/schedule.h"
+#include "common/plan/resolve/resolve.h"
+#include "common/plan/schedule/schedule.h"
 #include "worker/integrators/path/path_events.h"
 #include "worker/scene/trace_scene.h"
 

@@ -2,8 +2,8 @@
 #include "worker/integrators/path/path_integrator.h"
 
 #include "common/base/error.h"
-#include "common/plan/kernel.h"
-#include "common/plan/learning.h"
+#include "common/plan/schedule/kernel.h"
+#include "common/plan/schedule/learning.h"
 #include "worker/integrators/path/tile_renderer.h"
 
 namespace treefarm {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "common/base/policy.h"
 #include "common/guiding/regions/region_sampler.h"
 #include "common/math/next_event_sums.h"
-#include "common/plan/policy.h"
-#include "common/plan/resolve.h"
-#include "common/plan/schedule.h"
+#include "common/plan/resolve/resolve.h"
+#include "common/plan/schedule/schedule.h"
 #include "worker/integrators/subpath/roulette.h"
 #include "worker/scene/trace_scene.h"
 

@@ -6,7 +6,7 @@
 
 #include "common/film/splitting_gain.h"
 #include "common/guiding/any_guide.h"
-#include "common/plan/kernel.h"
+#include "common/plan/schedule/kernel.h"
 #include "worker/integrators/path/path_kernel.h"
 #include "worker/integrators/path/path_roulette.h"
 #include "worker/integrators/path/tile_renderer.h"

@@ -7,8 +7,8 @@
 #include "common/film/trace_stats.h"
 #include "common/film/work_unit.h"
 #include "common/guiding/any_guide.h"
-#include "common/plan/kernel.h"
-#include "common/plan/schedule.h"
+#include "common/plan/schedule/kernel.h"
+#include "common/plan/schedule/schedule.h"
 #include "worker/integrators/record_log.h"
 #include "worker/scene/trace_scene.h"
 

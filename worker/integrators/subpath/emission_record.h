@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "common/film/trace_stats.h"
-#include "common/plan/schedule.h"
+#include "common/plan/schedule/schedule.h"
 #include "worker/lights/emission_choice.h"
 
 namespace treefarm {

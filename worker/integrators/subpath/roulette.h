@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "common/base/policy.h"
 #include "common/math/vec.h"
-#include "common/plan/policy.h"
 
 namespace treefarm {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/scene/kinds/emitter_traits.h"
+#include "common/scene/kinds/traits/emitter_traits.h"
 
 namespace treefarm {
 

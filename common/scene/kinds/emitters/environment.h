@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "common/scene/kinds/emitter_traits.h"
+#include "common/scene/kinds/traits/emitter_traits.h"
 
 namespace treefarm {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/scene/kinds/lobes.h"
+#include "common/scene/kinds/traits/lobes.h"
 #include "common/scene/model/texture.h"
 
 namespace treefarm {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/scene/kinds/lobes.h"
 #include "common/scene/kinds/materials/diffuse.h"
+#include "common/scene/kinds/traits/lobes.h"
 
 namespace treefarm {
 

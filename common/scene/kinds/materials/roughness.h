@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "common/scene/kinds/lobes.h"
+#include "common/scene/kinds/traits/lobes.h"
 #include "common/scene/model/texture.h"
 
 namespace treefarm {

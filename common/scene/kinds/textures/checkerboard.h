@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/scene/kinds/texture_traits.h"
+#include "common/scene/kinds/traits/texture_traits.h"
 
 namespace treefarm {
 

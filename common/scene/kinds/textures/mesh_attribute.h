@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "common/scene/kinds/texture_traits.h"
+#include "common/scene/kinds/traits/texture_traits.h"
 
 namespace treefarm {
 

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/plan/schedule/guiding_verdict.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/policy.h"
+
+namespace treefarm {
+
+namespace {
+
+/// The worth below which guiding is given up: lower after short passes, whose trees still get much better.
+double bar(std::uint32_t spp) {
+    const double settled = std::log2(static_cast<double>(spp) / tuned<std::uint32_t>("guiding.least_settled_spp")) /
+                           std::log2(static_cast<double>(tuned<std::uint32_t>("guiding.settled_spp")) /
+                                     tuned<std::uint32_t>("guiding.least_settled_spp"));
+    return std::lerp(tuned("guiding.giving_up_early"), tuned("guiding.giving_up"), std::clamp(settled, 0.0, 1.0));
+}
+
+}  // namespace
+
+Guiding judge_guiding(const PassPlan& pass, const GuidingWorth& worth, const GuidingWorth& before, double mistrust) {
+    if (!(worth.worth > 0) || pass.spp < tuned<std::uint32_t>("guiding.least_judged_spp") ||
+        worth.known < tuned("guiding.least_known"))
+        return Guiding::open;
+    const bool comparable = before.worth > 0 && before.known >= tuned("guiding.least_known");
+    const double growth = comparable ? worth.worth / before.worth : 1.0;
+    const double next = worth.worth * std::max(growth, 1.0);
+    const double most = next * mistrust * std::exp(tuned("guiding.giving_up_errors") * worth.error);
+    return most < bar(pass.spp) ? Guiding::loses : Guiding::open;
+}
+
+}  // namespace treefarm

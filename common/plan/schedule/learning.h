@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/guiding/any_guide.h"
+#include "common/guiding/regions/refinement.h"
+#include "common/plan/schedule/schedule.h"
+
+namespace treefarm {
+
+/// The guide of a job; of one that nothing guides, that whose model stands idle.
+GuideKind guide_kind(const Job& job);
+/// Whether a guide has kernels of its own for plainly diffuse scenes; otherwise these are traced as any scene is.
+bool has_plain_kernels(GuideKind guide);
+
+/// The guide's model before the first pass over `bounds`; a record of average value is about `radiance_scale`.
+AnyModel first_model(const Resolved& job, const Box3& bounds, float radiance_scale);
+/// The first model, over all that the scene's camera can see.
+AnyModel first_model(const Resolved& job, const Scene& scene);
+
+/// How the job refines the tree after `pass` for the `coming` one.
+RefineSettings refine_settings(const Resolved& job, const PassPlan& pass, const PassPlan& coming);
+
+/// Shape of the sums of a pass over `model`.
+SumsShape sums_shape(const PassPlan& pass, const AnyModel& model);
+
+}  // namespace treefarm

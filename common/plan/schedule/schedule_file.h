@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/plan/schedule/schedule.h"
+
+namespace treefarm {
+
+/// schedule.toml: one [[pass]] table per pass with what was decided (spp, next_event, record). All else follows from
+/// the job, so that job and schedule together repeat a render's bits.
+std::string write_schedule(std::span<const PassPlan> passes);
+
+/// The passes of such a text; `name` stands for the file in messages. Throws InputError with file:line:column.
+std::vector<PassPlan> parse_schedule(const std::string& toml, const std::string& name, const Resolved& job);
+
+}  // namespace treefarm

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/math/vec.h"
+#include "common/scene/kinds/traits/kind_effect.h"
+#include "common/scene/kinds/traits/texture_image.h"
+
+namespace treefarm {
+
+/// (u, v) -> (u_row . (u, v, 1), v_row . (u, v, 1)), before anything is looked up.
+struct UvTransform {
+    Vec3 u_row{1.0f, 0.0f, 0.0f};
+    Vec3 v_row{0.0f, 1.0f, 0.0f};
+    bool operator==(const UvTransform&) const = default;
+};
+
+/// Limits between which the values of an image or a texture lie.
+struct ValueRange {
+    float min = 0.0f, max = 0.0f;
+
+    /// The least one that holds both.
+    ValueRange with(float value) const { return {value < min ? value : min, max < value ? value : max}; }
+};
+
+}  // namespace treefarm

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/farm/begun_pass.h"
+
+namespace treefarm {
+
+namespace {
+
+/// Ends of the ranges that a pass may have, by kind.
+std::array<std::uint64_t, kUnitKinds> range_ends(const PassPlan& plan, std::uint64_t pixels) {
+    std::array<std::uint64_t, kUnitKinds> ends{};
+    ends[static_cast<std::size_t>(UnitKind::light_paths)] = pixels * plan.units.light_paths;
+    ends[static_cast<std::size_t>(UnitKind::chains)] = plan.units.chains;
+    return ends;
+}
+
+}  // namespace
+
+bool has_possible_units(const BegunPass& begun, std::uint64_t pixels) {
+    const auto ends = range_ends(begun.plan, pixels);
+    if (!begun.done.fits(pixels, begun.plan.chunks, ends)) return false;
+    DoneWork taken = begun.done;
+    const auto is_there = [&](const WorkUnit& unit) {
+        const auto kind = static_cast<std::size_t>(unit.kind);
+        if (unit.pass != begun.plan.index || kind >= kUnitKinds) return false;
+        if (unit.kind == UnitKind::tile) return taken.holds(unit);
+        return unit.count > 0 && unit.count <= ends[kind] && unit.first <= ends[kind] - unit.count;
+    };
+    for (const DeadlyUnit& deadly : begun.deadly) {
+        if (deadly.deaths == 0 || deadly.deaths >= Ledger::kMostDeaths || !is_there(deadly.unit)) return false;
+        if (taken.left_of(deadly.unit) != std::vector<WorkUnit>{deadly.unit}) return false;
+        taken.add(deadly.unit);
+    }
+    return true;
+}
+
+}  // namespace treefarm

@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/farm/farm.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/base/hash.h"
+#include "common/comm/rest.h"
+#include "common/config/aov_list.h"
+#include "common/config/job_reader.h"
+#include "coordinator/farm/pulse.h"
+#include "coordinator/farm/result_pace.h"
+
+namespace treefarm {
+
+namespace {
+
+constexpr double kLostHeartbeats = 10.0;
+
+/// Between two copies of a tree or of the scene for one worker; workers complain after five of silence.
+constexpr double kResendHeartbeats = 2.0;
+
+/// Messages taken in before anything else is done again: a flood must not keep the farm from its other duties.
+constexpr int kMostLooks = 1024;
+
+/// After so many seconds from when nothing was left to hand out, who has not sent what it had is slow.
+constexpr double kSettleSeconds = 0.05, kLookSeconds = 0.02;
+
+/// While more are left, and all are long, workers have enough to trace.
+constexpr std::size_t kCalmUnitsPerThread = 4;
+
+}  // namespace
+
+Farm::Farm(Channel& channel, const Job& job, Bytes scene, std::uint64_t fingerprint, const Log& log,
+           const FarmLimits& limits, const JobTurn& turn)
+    : channel_(channel),
+      job_(job),
+      job_text_(write_job(job)),
+      scene_(std::move(scene)),
+      scene_hash_(hash_bytes(scene_)),
+      fingerprint_(fingerprint),
+      log_(log),
+      limits_(limits),
+      turn_(turn),
+      roster_(std::max(limits.lost, kLostHeartbeats * job.farm.heartbeat_seconds)) {}
+
+void Farm::gather(const std::function<bool()>& interrupted) {
+    std::size_t expected = 0;  // guests come when they come
+    for (const int peer : channel_.peers())
+        expected += !channel_.is_guest(peer) && !turn_.absent.contains(peer) && !turn_.left.contains(peer);
+    expected = std::max<std::size_t>(1, expected);
+    if (turn_.number > 0) {
+        tell_workers(channel_, Rejoin{turn_.number});
+        for (const int peer : channel_.peers())
+            told_job_.insert(peer);
+    }
+    const Timer timer;
+    while (roster_.members().size() < expected && timer.seconds() < limits_.gather && !interrupted())
+        step();
+    if (interrupted()) return;
+    if (roster_.present_count() == 0)
+        throw RunError(last_failure_.empty() ? "no worker said hello" : "no worker can be used: " + last_failure_);
+    if (roster_.present_count() < expected)
+        log_->warn("going on with {} of {} workers; the others may join later", roster_.present_count(), expected);
+    if (turn_.number > 0)  // nor need later jobs wait for those that did not come
+        for (const int peer : channel_.peers())
+            if (!channel_.is_guest(peer) && !roster_.find(peer) && !turn_.left.contains(peer))
+                turn_.absent.insert(peer);
+}
+
+void Farm::begin_pass(const PassPlan& plan, const AnyModel& tree, Bytes encoded_tree, int width, int height,
+                      const BegunPass* begun) {
+    const std::uint64_t hash = hash_bytes(encoded_tree);
+    pass_ = OpenPass{plan, std::move(encoded_tree), hash};
+    if (ledger_) copied_units_ += ledger_->copies();
+    pass_began_ = clock_.seconds();
+    first_request_seconds_ = broadcast_seconds_ = 0;
+    requested_ = false;
+    not_ready_.clear();
+    copied_.clear();
+    askers_.clear();
+    for (Member* member : roster_.present()) {
+        member->credit = 0;
+        member->queued = 0;
+        member->told_end = false;
+        not_ready_.push_back(member->peer);
+        announce(member->peer);
+    }
+    if (!std::exchange(scene_sent_, true)) send_blob(Blob::scene, 0, chain_without_scene());
+    send_blob(Blob::tree, 0, chain_of_present());
+    // Sums take a while to make, as the workers do to unpack the tree.
+    open_books(tree, width, height, begun);
+}
+
+void Farm::open_books(const AnyModel& tree, int width, int height, const BegunPass* begun) {
+    const PassPlan& plan = pass_->plan;
+    const auto new_collector = [&] {
+        return std::make_unique<Collector>(plan, tree, width, height, negative_allowed_, AovLayout(aov_requests(job_)));
+    };
+    collector_ = new_collector();
+    try {
+        if (begun) collector_->restore(*begun);
+    } catch (const FormatError& error) {
+        log_->warn("what the run has of pass {} cannot be used ({}): it is traced again", plan.index, error.what());
+        collector_ = new_collector();
+        begun = nullptr;
+    }
+    ledger_ = std::make_unique<Ledger>(plan, width, height, job_.farm.tile_size, begun ? begun->done : DoneWork(),
+                                       begun ? begun->deadly : std::vector<DeadlyUnit>());
+}
+
+void Farm::fill(BegunPass& begun) const {
+    collector_->fill(begun);
+    begun.deadly = ledger_->deadly();
+}
+
+void Farm::announce(int peer) {
+    const double seconds =
+        result_seconds(job_.farm.update_seconds, pass_->plan.layers.splats.pixels, roster_.present_count());
+    tell(peer, PassBegin{pass_->plan, pass_->tree.size(), pass_->tree_hash, seconds});
+}
+
+BlobName Farm::name_of(Blob blob) const {
+    return {blob, turn_.number, blob == Blob::tree ? pass_->plan.index : 0};
+}
+
+/// Along a chain of those that can speak to each other, and to each guest directly.
+void Farm::send_blob(Blob blob, std::uint64_t offset, std::span<const std::uint32_t> peers) {
+    std::vector<std::uint32_t> chain, guests;
+    for (const std::uint32_t peer : peers)
+        (channel_.is_guest(static_cast<int>(peer)) ? guests : chain).push_back(peer);
+    const Bytes& bytes = blob == Blob::tree ? pass_->tree : scene_;
+    send_along_chain(channel_, name_of(blob), bytes, offset, chain);
+    send_to_each(channel_, name_of(blob), bytes, offset, guests);
+}
+
+/// Whether a peer may have a copy. One on its way takes memory here: nobody gets two at a time, however often he asks.
+bool Farm::may_have_copy(Blob blob, int peer) {
+    double& last = copied_.try_emplace({peer, name_of(blob)}, -1e9).first->second;
+    if (clock_.seconds() - last < kResendHeartbeats * job_.farm.heartbeat_seconds) return false;
+    last = clock_.seconds();
+    return true;
+}
+
+/// Sends what was asked for. Workers behind one that died in the chain ask at about the same time: one chain of them
+/// all gets one copy, not each its own.
+void Farm::serve_askers() {
+    for (auto& [blob, askers] : askers_) {
+        if (askers.offsets.empty() || clock_.seconds() - askers.since < limits_.asking) continue;
+        std::vector<std::uint32_t> chain;
+        std::uint64_t offset = ~std::uint64_t{0};
+        for (const auto& [peer, from] : askers.offsets) {
+            const Member* member = roster_.find(peer);
+            if (!member || member->state != MemberState::present) continue;
+            if (channel_.unsent(peer) > kChunkBytes || !may_have_copy(blob, peer)) continue;  // it may be on its way
+            chain.push_back(static_cast<std::uint32_t>(peer));
+            offset = std::min(offset, from);
+        }
+        askers.offsets.clear();
+        send_blob(blob, offset, chain);
+    }
+}
+
+std::vector<std::uint32_t> Farm::chain_of_present() {
+    std::vector<std::uint32_t> chain;
+    for (const Member* member : roster_.present())
+        chain.push_back(static_cast<std::uint32_t>(member->peer));
+    return chain;
+}
+
+std::vector<std::uint32_t> Farm::chain_without_scene() {
+    std::vector<std::uint32_t> chain;
+    for (const Member* member : roster_.present())
+        if (member->hello.scene_hash != scene_hash_) chain.push_back(static_cast<std::uint32_t>(member->peer));
+    return chain;
+}
+
+void Farm::step() {
+    // Between steps the caller combines, refines and writes, and a message that waits may need more than one look.
+    roster_.excuse(clock_.seconds() - listened_);
+    bool busy = false;
+    for (int looks = 0; looks < kMostLooks && !pass_complete(); ++looks) {
+        const auto message = channel_.poll();
+        if (!message) break;
+        busy = true;
+        take(*message);
+    }
+    serve_askers();
+    watch_for_silence();
+    watch_for_slowness();
+    beat();
+    if (!busy) rest(channel_, calm());
+    listened_ = clock_.seconds();
+}
+
+void Farm::watch_for_silence() {
+    const double now = clock_.seconds();
+    for (Member* member : roster_.overdue(now))
+        give_up(*member, MemberState::lost, "was silent for too long");
+    for (Member* member : roster_.present())
+        if (!channel_.is_open(member->peer)) give_up(*member, MemberState::lost, "closed its connection");
+    if (!scene_sent_ || roster_.present_count() > 0) {
+        alone_since_.reset();
+        return;
+    }
+    const bool wait = may_come_back();
+    if (wait && !alone_since_) {
+        alone_since_ = now;
+        log_->warn("no worker answers: waiting {:.0f} s for one to come back", limits_.grace);
+    }
+    if (!wait || now - *alone_since_ > limits_.grace) throw RunError("no worker is left" + why_nobody());
+}
+
+/// A unit in words, and the command that traces it alone.
+std::string Farm::blame(const WorkUnit& unit) const {
+    const std::string of_pass = " of pass " + std::to_string(unit.pass);
+    if (unit.kind != UnitKind::tile)
+        return "work " + std::to_string(unit.first) + " to " + std::to_string(unit.first + unit.count) + of_pass;
+    std::string name = std::to_string(unit.pass);
+    for (const std::uint32_t number :
+         {std::uint32_t{unit.x0}, std::uint32_t{unit.y0}, std::uint32_t{unit.x1}, std::uint32_t{unit.y1}, unit.chunk})
+        name += "," + std::to_string(number);
+    return "the pixels from " + std::to_string(unit.x0) + "," + std::to_string(unit.y0) + " to below " +
+           std::to_string(unit.x1) + "," + std::to_string(unit.y1) + of_pass +
+           "; to trace them alone: " + debug_command_ + " " + name + debug_options_;
+}
+
+/// What is known of how the last ones were lost.
+std::string Farm::why_nobody() const {
+    if (!last_failure_.empty()) return ": " + last_failure_;
+    const auto [unit, deaths] = deadliest();
+    return deaths < 2 ? "" : ": " + std::to_string(deaths) + " were lost over " + blame(unit);
+}
+
+std::pair<WorkUnit, std::size_t> Farm::deadliest() const {
+    return ledger_ ? ledger_->deadliest() : std::pair<WorkUnit, std::size_t>();
+}
+
+/// Looks now and then, where nothing waits any more, for whom somebody idle could help.
+void Farm::watch_for_slowness() {
+    if (!ledger_ || ledger_->complete() || ledger_->waiting() > 0) return;
+    if (clock_.seconds() - last_look_ < kLookSeconds) return;
+    last_look_ = clock_.seconds();
+    serve_all();
+}
+
+bool Farm::may_come_back() const {
+    if (channel_.takes_guests()) return true;
+    for (const int peer : channel_.peers()) {
+        const auto found = roster_.members().find(peer);
+        const bool unknown = found == roster_.members().end();
+        if (unknown ? !turn_.absent.contains(peer) && !turn_.left.contains(peer)
+                    : found->second.state == MemberState::lost)
+            return true;
+    }
+    return false;
+}
+
+bool Farm::calm() const {
+    return pass_ && not_ready_.empty() && pass_->plan.has_long_units(job_.farm.tile_size) &&
+           ledger_->waiting() > kCalmUnitsPerThread * roster_.thread_count();
+}
+
+void Farm::beat() {
+    const double now = clock_.seconds();
+    if (now - last_beat_ < job_.farm.heartbeat_seconds) return;
+    last_beat_ = now;
+    for (const int peer : channel_.peers()) {
+        const Member* member = roster_.find(peer);
+        if (!member || member->state != MemberState::lost) tell(peer, Heartbeat{});
+    }
+    channel_.drained();  // they move only when they are looked at
+}
+
+void Farm::beat_during(const std::function<void()>& work) {
+    run_aside(work, [this] { beat(); });
+}
+
+Speeds Farm::speeds() const {
+    std::map<int, Hand> hands;
+    for (const auto& [peer, member] : roster_.members())
+        if (member.state == MemberState::present) hands[peer] = {member.hello.threads, member.speed.paths_per_second()};
+    return Speeds(hands);
+}
+
+/// Gives a worker its portion of what is left. One that got less than it wants asks again when it has finished
+/// something. False if nothing is left, not even a copy of what somebody slow has.
+bool Farm::serve(Member& member, const Speeds& all) {
+    if (ledger_->waiting() + ledger_->suspects() == 0) return serve_copies(member, all);
+    const Portion portion = all.portion(member.peer, member.credit, member.queued, ledger_->waiting_paths());
+    Work work{pass_->plan.index, ledger_->issue(member.peer, portion)};
+    work.alone = ledger_->has_suspect(member.peer);
+    for (const WorkUnit& unit : work.units)
+        member.queued += ledger_->paths(unit);
+    if (!work.units.empty()) {
+        member.credit -= static_cast<std::uint32_t>(work.units.size());
+        member.told_end = work.alone;
+        tell(member.peer, work);
+    }
+    if (ledger_->waiting() == 0) tell_end();
+    return true;
+}
+
+/// Says once to everybody that nothing waits: they send what they have finished, and soon, so that it shows who is
+/// slow.
+void Farm::tell_end() {
+    ended_ = clock_.seconds();
+    for (Member* member : roster_.present())
+        if (!std::exchange(member->told_end, true)) tell(member->peer, Work{pass_->plan.index, {}});
+}
+
+/// Gives an idle worker copies of what slower ones still have.
+bool Farm::serve_copies(Member& member, const Speeds& all) {
+    if (member.credit == 0 || clock_.seconds() - ended_ < kSettleSeconds) return false;
+    Work work{pass_->plan.index, ledger_->issue_copies(member.peer, std::min(member.credit, member.hello.threads),
+                                                       [&](int holder, std::uint64_t paths) {
+                                                           return all.gain(member.peer, paths, holder,
+                                                                           ledger_->outstanding_paths(holder));
+                                                       })};
+    if (work.units.empty()) return false;
+    work.alone = true;
+    member.credit -= static_cast<std::uint32_t>(work.units.size());
+    tell(member.peer, work);
+    return true;
+}
+
+void Farm::serve_all() {
+    const Speeds all = speeds();
+    for (Member* member : roster_.present())
+        if (member->credit > 0) serve(*member, all);
+}
+
+void Farm::give_up(Member& member, MemberState state, const std::string& why) {
+    member.state = state;
+    const std::size_t units = ledger_ ? ledger_->reclaim(member.peer, state == MemberState::lost) : 0;
+    reissued_units_ += units;
+    log_->log(state == MemberState::left ? spdlog::level::info : spdlog::level::err,
+              "worker {} on {} {}; {} units are issued again", member.peer, member.hello.host, why, units);
+    if (std::erase(not_ready_, member.peer) > 0 && not_ready_.empty())
+        broadcast_seconds_ = clock_.seconds() - pass_began_;
+    if (const auto [unit, deaths] = deadliest(); deaths >= Ledger::kMostDeaths)
+        throw RunError(std::to_string(deaths) + " workers were lost over " + blame(unit));
+    if (units > 0) serve_all();
+}
+
+std::set<int> Farm::lost_peers() const {
+    std::set<int> lost = turn_.absent;
+    for (const auto& [peer, member] : roster_.members()) {
+        if (member.state == MemberState::present || member.state == MemberState::refused ||
+            member.state == MemberState::left)
+            lost.erase(peer);
+        else
+            lost.insert(peer);
+    }
+    return lost;
+}
+
+std::set<int> Farm::left_peers() const {
+    std::set<int> left = turn_.left;
+    for (const auto& [peer, member] : roster_.members())
+        if (member.state == MemberState::left) left.insert(peer);
+    return left;
+}
+
+std::uint64_t Farm::rays_traced() const {
+    std::uint64_t rays = 0;
+    for (const auto& [peer, member] : roster_.members())
+        rays += member.progress.rays;
+    return rays;
+}
+
+}  // namespace treefarm

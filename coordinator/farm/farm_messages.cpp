@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <utility>
+
+#include "common/base/hash.h"
+#include "coordinator/farm/farm.h"
+
+// What the farm makes of each message. Any peer may say anything at any time: what is wrong costs its sender its place,
+// never the farm its life, its memory or a pixel.
+
+namespace treefarm {
+
+namespace {
+
+/// Units that a worker may be owed: more than any can want.
+constexpr std::uint32_t kMostCredit = 1u << 20;
+
+/// Lives of one worker process: one that begins anew so often never gets anywhere.
+constexpr std::uint32_t kMostLives = 1000;
+
+/// Messages of one kind that are worth a line in the log.
+constexpr std::uint64_t kMostLogged = 20;
+
+}  // namespace
+
+void Farm::take(const Received& received) {
+    const int peer = received.peer;
+    Message message;
+    try {
+        message = decode(received.bytes);
+    } catch (const std::exception& error) {  // also a count that memory does not suffice for
+        on_bad_message(peer, error.what());
+        return;
+    }
+    try {
+        std::visit(Overloads{
+                       [&](const Hello& m) { on(peer, m); },
+                       [&](const Resend& m) { on(peer, m); },
+                       [&](const Want& m) { on(peer, m); },
+                       [&](Result& m) { on(peer, std::move(m)); },
+                       [&](const Heartbeat& m) {
+                           if (Member* member = hear(peer, m.incarnation)) on(*member, m);
+                       },
+                       [&](const Failure& m) { on(peer, m); },
+                       [&](const Bye& m) {
+                           if (Member* member = hear(peer, m.incarnation)) {
+                               give_up(*member, MemberState::left, "leaves, as it was told");
+                               // Processes of mpirun stay to its end: it would end all others with them.
+                               if (channel_.is_guest(peer)) tell(peer, Leave{true});
+                           }
+                       },
+                       [&](const auto&) { throw FormatError("a message that the coordinator sends, not receives"); },
+                   },
+                   message);
+    } catch (const FormatError& error) {
+        on_bad_message(peer, error.what());
+    }
+}
+
+void Farm::on_bad_message(int peer, const std::string& why) {
+    last_failure_ = "bad message from worker " + std::to_string(peer) + ": " + why;
+    const bool log_it = ++bad_messages_ <= kMostLogged;
+    Member* member = roster_.find(peer);
+    if (member) ++member->bad_messages;
+    if (member && member->state == MemberState::present)
+        give_up(*member, MemberState::barred, "sent a bad message: " + why);  // it may do so for ever
+    else if (log_it)
+        log_->warn("{}", last_failure_);
+}
+
+Member* Farm::hear(int peer, std::uint64_t incarnation) {
+    if (Member* member = roster_.hear(peer, incarnation, clock_.seconds())) return member;
+    Member* member = roster_.find(peer);
+    if (member && member->state == MemberState::lost && member->hello.incarnation == incarnation &&
+        !member->asked_back) {
+        log_->info("worker {} is back: it may join again", peer);
+        member->asked_back = true;
+        tell(peer, Rejoin{turn_.number});
+    }
+    return nullptr;
+}
+
+void Farm::on(int peer, const Hello& m) {
+    if (m.job != turn_.number) {  // of an earlier job; the answer to this one's rejoin is on its way
+        if (told_job_.insert(peer).second) tell(peer, Rejoin{turn_.number});
+        return;
+    }
+    if (Member* earlier = roster_.find(peer)) {
+        if (earlier->state == MemberState::barred) return;
+        if (earlier->lives >= kMostLives) throw FormatError("a worker that begins anew for ever");
+        if (earlier->state == MemberState::present) {
+            if (earlier->hello.incarnation == m.incarnation) return;
+            give_up(*earlier, MemberState::lost, "started anew");
+        }
+    }
+    if (m.fingerprint != fingerprint_) {
+        refuse(peer, m,
+               "its program or floating-point state differs (fingerprint " + hash_text(m.fingerprint) +
+                   ", the coordinator's is " + hash_text(fingerprint_) +
+                   "): start the same build everywhere; treefarm --version tells them apart");
+        return;
+    }
+    if (m.threads == 0) {
+        refuse(peer, m, "it has no threads to trace with");
+        return;
+    }
+    roster_.admit(peer, m, clock_.seconds());
+    if (ledger_) ledger_->forgive(peer);
+    log_->debug("worker {} on {} with {} threads", peer, m.host, m.threads);
+    tell(peer, Welcome{static_cast<std::uint32_t>(peer), job_.farm.heartbeat_seconds, job_text_, scene_hash_,
+                       scene_.size(), turn_.number > 0});
+    if (!scene_sent_) return;
+    const std::uint32_t only[] = {static_cast<std::uint32_t>(peer)};
+    if (m.scene_hash != scene_hash_ && may_have_copy(Blob::scene, peer)) send_blob(Blob::scene, 0, only);
+    if (!pass_) return;
+    announce(peer);
+    if (may_have_copy(Blob::tree, peer)) send_blob(Blob::tree, 0, only);
+}
+
+void Farm::refuse(int peer, const Hello& m, const std::string& reason) {
+    roster_.admit(peer, m, clock_.seconds()).state = MemberState::refused;
+    last_failure_ = "worker " + std::to_string(peer) + " on " + m.host + " was refused: " + reason;
+    log_->error("{}", last_failure_);
+    tell(peer, Refuse{reason});
+}
+
+void Farm::on(int peer, const Resend& m) {
+    const Member* member = roster_.find(peer);
+    if (!member || member->state != MemberState::present || !scene_sent_) return;
+    if (m.job != turn_.number) return;
+    if (m.blob == Blob::tree && (!pass_ || m.epoch != pass_->plan.index)) return;
+    log_->debug("worker {} asks again for a {} from byte {}", peer, m.blob == Blob::tree ? "tree" : "scene", m.offset);
+    Askers& askers = askers_[m.blob];
+    if (askers.offsets.empty()) askers.since = clock_.seconds();
+    askers.offsets.try_emplace(peer, m.offset);
+}
+
+void Farm::on(int peer, const Want& m) {
+    Member* member = hear(peer, m.incarnation);
+    if (!member || !pass_ || m.pass != pass_->plan.index) return;
+    if (!std::exchange(requested_, true)) first_request_seconds_ = clock_.seconds() - pass_began_;
+    if (std::erase(not_ready_, peer) > 0 && not_ready_.empty()) broadcast_seconds_ = clock_.seconds() - pass_began_;
+    member->credit += std::min(m.units, kMostCredit - member->credit);
+    member->queued = m.queued;
+    if (!serve(*member, speeds()) && !std::exchange(member->told_end, true)) tell(peer, Work{m.pass, {}});
+}
+
+void Farm::on(Member& member, const Heartbeat& m) {
+    const bool busy = ledger_ && !ledger_->complete() && ledger_->outstanding(member.peer) > 0;
+    member.speed.beat(clock_.seconds(), m.samples, busy);
+    member.progress = m;
+}
+
+void Farm::on(int peer, Result&& m) {
+    Member* member = hear(peer, m.incarnation);
+    if (!member) {
+        if (++dropped_results_ <= kMostLogged)
+            log_->warn("a result of worker {} came too late and was dropped: its work was issued again", peer);
+        return;
+    }
+    if (pass_ && m.pass < pass_->plan.index) {  // others were quicker, and the pass is over
+        ++dropped_results_;
+        return;
+    }
+    const Verdict verdict = collector_ ? collector_->take(peer, std::move(m), *ledger_) : Verdict::lie;
+    if (verdict == Verdict::lie) throw FormatError("a result for work that the worker does not have");
+    if (verdict == Verdict::late) {
+        ++dropped_results_;
+        log_->debug("a result of worker {} was dropped: others were quicker", peer);
+    }
+    member->queued = std::min(member->queued, ledger_->outstanding_paths(peer));
+    for (Member* other : roster_.present())
+        if (std::vector<WorkUnit> done = ledger_->take_superseded(other->peer); !done.empty())
+            tell(other->peer, Drop{pass_->plan.index, std::move(done)});
+    if (ledger_->complete()) return;
+    if (ledger_->waiting() == 0 || ledger_->outstanding(peer) == 0) serve_all();
+}
+
+void Farm::on(int peer, const Failure& m) {
+    Member* member = hear(peer, m.incarnation);
+    if (!member) return;
+    last_failure_ = "worker " + std::to_string(peer) + " on " + member->hello.host + ": " + m.text;
+    give_up(*member, MemberState::barred, "failed: " + m.text);  // it cannot go on
+}
+
+}  // namespace treefarm

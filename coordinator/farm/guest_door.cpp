@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/farm/guest_door.h"
+
+#include "common/base/text/parse_text.h"
+#include "common/comm/join_ticket.h"
+#include "common/comm/tcp_channel.h"
+
+namespace treefarm {
+
+GuestDoor::GuestDoor(Channel& channel, const Job::Farm& farm, std::uint64_t fingerprint,
+                     const std::filesystem::path& run, const Log& log) {
+    if (!farm.join) return;
+    GuestOptions options;
+    options.address = farm.join_address;
+    options.port = static_cast<std::uint16_t>(farm.join_port);
+    options.fingerprint = fingerprint;
+    options.warning = [log](const std::string& text) { log->warn("{}", text); };
+    const JoinTicket& ticket = channel.take_guests(options);
+    const std::filesystem::path path = run / kTicketFileName;
+    write_ticket(path, ticket);
+    ticket_ = path;
+    log->info("workers may join at {} port {}: treefarm join {}", ticket.address, ticket.port,
+              shell_quoted(run.string()));
+    log->debug("only who joins is authenticated: the network between processes of MPI is trusted");
+}
+
+GuestDoor::~GuestDoor() {
+    std::error_code ignored;
+    if (!ticket_.empty()) std::filesystem::remove(ticket_, ignored);
+}
+
+}  // namespace treefarm

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/farm/speeds.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace treefarm {
+
+namespace {
+
+constexpr double kLeastSpeed = 1.0;  ///< of one that stands still: it may move again
+constexpr double kHalfLife = 2.0;    ///< of a measured speed, seconds
+// What a worker is handed at once: little enough that the last units of a pass spread over all workers.
+constexpr double kMostSeconds = 2.0;  ///< of its work
+constexpr double kPart = 0.25;        ///< of its part of what is left
+// A unit is given to a second worker that saves so many seconds, and so many times what it takes there.
+constexpr double kCopyGain = 0.1, kCopyRatio = 1.0;
+
+}  // namespace
+
+void WorkerSpeed::beat(double now, std::uint64_t samples, bool busy) {
+    if (busy && last_ && now > last_->at && samples >= last_->samples) {
+        const double seconds = now - last_->at;
+        const double rate = static_cast<double>(samples - last_->samples) / seconds;
+        const double kept = speed_ ? std::exp2(-seconds / kHalfLife) : 0.0;
+        speed_ = kept * speed_.value_or(0.0) + (1.0 - kept) * rate;
+    }
+    last_.reset();
+    if (busy) last_ = Beat{now, samples};
+}
+
+Speeds::Speeds(const std::map<int, Hand>& hands) : hands_(hands) {
+    double paths = 0, threads = 0;
+    for (const auto& [worker, hand] : hands_) {
+        if (!hand.speed) continue;
+        paths += *hand.speed;
+        threads += hand.threads;
+    }
+    if (threads > 0) per_thread_ = paths / threads;
+    for (const auto& [worker, hand] : hands_)
+        total_ += speed(worker);
+}
+
+/// Paths per second; where nobody's speed is known, threads.
+double Speeds::speed(int worker) const {
+    const auto found = hands_.find(worker);
+    if (found == hands_.end()) return kLeastSpeed;
+    const Hand& hand = found->second;
+    return std::max(hand.speed ? *hand.speed : hand.threads * (per_thread_ > 0 ? per_thread_ : 1.0), kLeastSpeed);
+}
+
+Portion Speeds::portion(int worker, std::size_t credit, std::uint64_t queued, std::uint64_t waiting) const {
+    const auto found = hands_.find(worker);
+    if (found == hands_.end()) return {};
+    const double mine = speed(worker);
+    double paths = kPart * static_cast<double>(waiting) * mine / std::max(total_, mine);
+    if (per_thread_ > 0) paths = std::min(paths, kMostSeconds * mine);
+    const double left = paths - static_cast<double>(queued);
+    if (left < 1 && queued > 0) return {};
+    const double piece = std::max(paths / found->second.threads, 1.0);
+    return {credit, static_cast<std::uint64_t>(std::max(left, 1.0)), static_cast<std::uint64_t>(piece)};
+}
+
+double Speeds::gain(int here, std::uint64_t paths, int holder, std::uint64_t outstanding) const {
+    const auto known = [&](int worker) {
+        const auto found = hands_.find(worker);
+        return found != hands_.end() && found->second.speed.has_value();
+    };
+    if (per_thread_ == 0 && !known(holder)) return 0;
+    // Who has done all before his speed was known is quick.
+    const double takes = per_thread_ > 0 || known(here) ? static_cast<double>(paths) / speed(here) : 0.0;
+    const double saved = static_cast<double>(outstanding) / speed(holder) - takes;
+    // Both may end together, and then the slower one's whole result is dropped.
+    return saved > std::max(kCopyGain, kCopyRatio * takes) ? saved : 0;
+}
+
+}  // namespace treefarm

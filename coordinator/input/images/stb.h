@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "coordinator/input/images/pixels.h"
+
+/// The only door to the stb libraries, used within this room.
+namespace treefarm::stb {
+
+/// Pixels of a BMP or TGA file. Nothing, and `why`, if it cannot be decoded.
+std::optional<Pixels> decode(std::span<const std::uint8_t> bytes, std::string& why);
+
+}  // namespace treefarm::stb

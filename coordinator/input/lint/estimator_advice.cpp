@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/input/lint/estimator_advice.h"
+
+#include <cmath>
+
+#include "coordinator/input/lint/light_reach.h"
+
+namespace treefarm {
+namespace {
+
+// From where on next event hardly finds the lamps: chosen so that scenes of ours get what was ahead of the other, water
+// apart (bench/log/2026-11-27-ends.md).
+constexpr double kMostlyHidden = 0.5, kOftenBehindGlass = 0.25, kMostlyFromInfinity = 0.5;
+
+constexpr const char* kPrice = "; a sample takes two to six times that of path";
+constexpr const char* kWhilePays = ", and bidirectional.light_subpaths ends that where it does not pay";
+
+std::string percent(double share) {
+    return std::to_string(std::lround(100 * share)) + " %";
+}
+
+}  // namespace
+
+std::string estimator_advice(const Scene& scene, const Resolved& job) {
+    const std::string both = "bidirectional: ";
+    if (job.scene_facts.lights_alone_find)
+        return both +
+               "emitters without extent shine on mirrors, smooth glass or coats, and only paths from emitters find "
+               "what "
+               "these throw onto other surfaces" +
+               kPrice;
+    const LightReach reach = light_reach(scene);
+    if (!reach.known) return "path: nothing is known that speaks for another";
+    if (reach.infinity > kMostlyFromInfinity)
+        return "path: " + percent(reach.infinity) +
+               " of the light comes from infinity, where paths from emitters would mostly miss what is seen";
+    if (reach.glass > kOftenBehindGlass)
+        return both + "smooth glass lies before " + percent(reach.glass) +
+               " of the lamps' light, which next event cannot see through" + kPrice + kWhilePays;
+    if (reach.blocked > kMostlyHidden)
+        return both + "surfaces lie before " + percent(reach.blocked) +
+               " of the lamps' light, which comes by way of others that paths from lamps find" + kPrice + kWhilePays;
+    return "path: next event sees " + percent(reach.free) + " of the lamps' light";
+}
+
+}  // namespace treefarm

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "common/scene/model/scene.h"
+#include "coordinator/input/mitsuba/diagnostics.h"
+
+namespace treefarm::mitsuba {
+
+/// Meaning of the integers of an image file.
+struct Decoding {
+    static constexpr double kAuto = 0.0, kSrgb = -1.0;
+
+    double gamma = kAuto;     ///< linear = encoded ^ gamma; kSrgb: sRGB's curve; kAuto: what the file says, else sRGB
+    bool file_gamma = false;  ///< kAuto listens to a PNG file's own gamma, as Mitsuba 0.6 does
+    std::string channel;      ///< "r", "g", "b", "a" or "y" alone; "": all but alpha
+    Location channel_where;   ///< of the request for it, for messages
+    bool signed_values = false;  ///< negative floats are kept
+    bool is_light = false;       ///< infinite floats are kept, as the largest half
+    bool as_floats = false;      ///< three channels of linear floats, whatever the file has
+
+    auto key() const { return std::tie(gamma, file_gamma, channel, signed_values, is_light, as_floats); }
+    bool operator<(const Decoding& other) const { return key() < other.key(); }
+};
+
+/// Images that a scene asks for: each file once per meaning, and read at the end only, when it is known what is used.
+class ImageRequests {
+  public:
+    /// Index in Scene::images, where an empty image keeps the place. A missing file throws InputError at `where`.
+    std::int32_t add(const std::filesystem::path& path, const Decoding& decoding, const Location& where, Scene& scene);
+
+    /// Width over height of an image that was asked for. The file is read for it, and again by read(). Throws
+    /// InputError.
+    double aspect(std::int32_t image) const;
+
+    /// Fills the images that are left; `kept` tells where each went (remove_unused). Throws InputError.
+    void read(const std::vector<std::int32_t>& kept, Scene& scene, Diagnostics& diagnostics) const;
+
+  private:
+    struct Request {
+        std::filesystem::path path;
+        Decoding decoding;
+        Location where;
+        std::int32_t image;
+    };
+    std::vector<Request> requests_;
+    std::map<std::pair<std::filesystem::path, Decoding>, std::int32_t> known_;
+};
+
+}  // namespace treefarm::mitsuba

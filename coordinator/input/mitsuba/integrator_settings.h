@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/config/setting.h"
+#include "coordinator/input/mitsuba/properties.h"
+
+namespace treefarm::mitsuba {
+
+/// Turns properties of an integrator into settings of the job.
+class IntegratorSettings {
+  public:
+    IntegratorSettings(Properties& properties, std::vector<Setting>& settings, Diagnostics& diagnostics)
+        : properties_(properties), settings_(settings), diagnostics_(diagnostics) {}
+
+    Properties& properties() { return properties_; }
+    Diagnostics& diagnostics() { return diagnostics_; }
+
+    void set(const std::string& key, const std::string& value, const Location& where) {
+        settings_.push_back({key, value, where});
+    }
+    /// Sets a key, at the place of the property `name`.
+    void set_by(const char* name, const std::string& key, const std::string& value) {
+        set(key, value, properties_.where(name));
+    }
+
+    /// Adds to the list of layers that the scene asks for; `list` has commas between its entries.
+    void add_aovs(const std::string& list, const Location& where) { add_aovs(settings_, list, where); }
+    static void add_aovs(std::vector<Setting>& settings, const std::string& list, const Location& where);
+
+    void read_integer(const char* name, const char* key);
+    void read_number(const char* name, const char* key);
+    void read_boolean(const char* name, const char* key);
+    /// A property that is one of some words, and the value of the key for each; other words throw InputError.
+    void read_words(const char* name, const char* key, const std::vector<std::pair<std::string, std::string>>& words);
+
+    /// Reads what every integrator has: how long paths are, strict normals, hidden emitters.
+    void read_common();
+    /// Reads strict normals and hidden emitters alone.
+    void read_flags();
+
+  private:
+    Properties& properties_;
+    std::vector<Setting>& settings_;
+    Diagnostics& diagnostics_;
+};
+
+}  // namespace treefarm::mitsuba

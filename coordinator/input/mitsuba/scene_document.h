@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "coordinator/input/check/scene_limits.h"
+#include "coordinator/input/mitsuba/file_search.h"
+#include "coordinator/input/mitsuba/xml_document.h"
+
+namespace treefarm::mitsuba {
+
+/// Tags of elements that make an object (as opposed to a property): they can have an id and be referred to.
+std::span<const std::string_view> object_tags();
+bool is_object_tag(const std::string& tag);
+
+/// A scene's elements with includes put in place, every $name replaced and every file name made one that can be opened.
+class SceneDocument {
+  public:
+    /// `defines` are values for $name from outside; they win over <default>. Cycles of includes or references, unknown
+    /// and repeated ids, undefined $names and defines that the scene does not use throw InputError.
+    SceneDocument(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
+                  const SceneLimits& limits = {});
+
+    const XmlElement& root() const { return *root_; }
+
+    /// The object that a <ref> means; any other element is returned as it is.
+    const XmlElement& resolve(const XmlElement& element) const;
+
+  private:
+    void find_files(XmlElement& element, const FileSearch& files, const SceneLimits& limits) const;
+    void collect_ids(const XmlElement& element);
+    void apply_alias(const XmlElement& alias);
+    void apply_aliases(const XmlElement& element);
+    void check_references(const XmlElement& element, std::map<const XmlElement*, bool>& done, int depth) const;
+
+    std::unique_ptr<XmlElement> root_;
+    std::map<std::string, const XmlElement*> objects_;
+};
+
+}  // namespace treefarm::mitsuba

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/scene/model/scene.h"
+#include "coordinator/input/mitsuba/properties.h"
+#include "coordinator/input/mitsuba/texture_reader.h"
+
+namespace treefarm::mitsuba {
+
+/// Adds the emitters of <emitter type="sky">, "sun" or "sunsky": an image of the sky with the sun's disk in it, and for
+/// a sun without extent a directional emitter. The sky is Hosek and Wilkie's; the sun is Preetham's in files of version
+/// 0.x, as in Mitsuba 0.6, and Hosek and Wilkie's later, as in Mitsuba 3.
+void read_sky(Properties& properties, Scene& scene, TextureReader& textures);
+
+}  // namespace treefarm::mitsuba

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "coordinator/input/mitsuba/properties.h"
+
+namespace treefarm::mitsuba {
+
+/// The colour of an object of Mitsuba 2 and 3 that stands for a spectrum: uniform, rawconstant, srgb, d65 (without a
+/// texture inside), regular, irregular, blackbody. Nothing for other types. As in Mitsuba's RGB variants where these
+/// know the plugin; regular, irregular and blackbody, which only its spectral ones do, become Rgb like lists.
+std::optional<Rgb> read_spectrum_plugin(Properties& properties, ColorUse use, Diagnostics& diagnostics);
+
+}  // namespace treefarm::mitsuba

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/launch/launch_run.h"
+
+#include <poll.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <random>
+
+#include "cli/launched_command.h"
+#include "common/base/error.h"
+#include "common/base/host.h"
+#include "common/base/interrupt.h"
+#include "common/base/text/parse_text.h"
+#include "common/base/timer.h"
+#include "common/comm/run_key.h"
+#include "coordinator/launch/attempt_processes.h"
+#include "coordinator/launch/child_process.h"
+#include "coordinator/launch/host_keys.h"
+#include "coordinator/launch/launch_folder.h"
+#include "coordinator/launch/launch_plan.h"
+#include "coordinator/launch/launch_signals.h"
+#include "coordinator/launch/supervisor.h"
+#include "coordinator/launch/sweep.h"
+#include "coordinator/run/folder_content.h"
+
+namespace treefarm {
+
+namespace {
+
+/// Between two looks at the sign of life.
+constexpr int kLookMilliseconds = 1000;
+/// For killed processes to go.
+constexpr double kKillPatience = 5.0;
+/// For whoever still has the run directory, on another host.
+constexpr double kFolderPatience = 30.0;
+
+std::string random_name() {
+    std::random_device device;
+    char text[9] = "";
+    std::snprintf(text, sizeof text, "%08x", device());
+    return text;
+}
+
+bool is_gone(pid_t process) {
+    return ::kill(process, 0) != 0 && errno == ESRCH;
+}
+
+/// The command as it was typed, up to "--": what a person adds to go on.
+std::string typed(const LaunchOptions& options) {
+    const LaunchOptions usual;
+    std::vector<std::string> words = {"treefarm", "launch"};
+    const auto add = [&words](const char* option, const std::string& value) {
+        words.emplace_back(option);
+        words.push_back(value);
+    };
+    if (options.processes > 0) add("-n", std::to_string(options.processes));
+    if (!options.hostfile.empty()) add("--hostfile", options.hostfile);
+    if (!options.network.empty()) add("--network", options.network);
+    if (options.mpirun != usual.mpirun) add("--mpirun", options.mpirun);
+    if (options.restarts != usual.restarts) add("--restarts", std::to_string(options.restarts));
+    if (options.stall_seconds != usual.stall_seconds) add("--stall-seconds", number_text(options.stall_seconds));
+    if (options.no_recovery) words.emplace_back("--no-recovery");
+    return shell_line(words) + " --";
+}
+
+/// Words for the terminal; a terminal that is gone ends nothing.
+void tell(const std::string& text) {
+    if (write(STDERR_FILENO, text.data(), text.size()) < 0) return;
+}
+
+class LaunchRun {
+  public:
+    LaunchRun(const LaunchOptions& options, LaunchedCommand command)
+        : options_(options),
+          command_(std::move(command)),
+          planner_(options),
+          folder_(command_),
+          temporary_(temporary_folder()),
+          shared_memory_(shared_memory_folder()),
+          log_(folder_.own() / "log", std::ios::app),
+          supervisor_(limits(options), hands(), [this](int number) { return name_of(number); }) {}
+
+    int run() {
+        try {
+            for (;;) {
+                if (const auto end = supervisor_.step(look())) return finish(*end);
+                wait();
+            }
+        } catch (const std::exception&) {
+            clean_up();
+            if (!started_) folder_.give_back();
+            throw;
+        }
+    }
+
+  private:
+    static SupervisorLimits limits(const LaunchOptions& options) {
+        SupervisorLimits limits;
+        limits.restarts = options.restarts;
+        limits.stall = options.stall_seconds;
+        return limits;
+    }
+
+    SupervisorHands hands() {
+        return {[this](int number) { start(number); },
+                [this] { child_->signal(SIGUSR1); },
+                [this](const LifeStatus& status) { dump(status); },
+                [this] { child_->signal(SIGTERM); },
+                [this] {
+                    child_->signal_group(SIGKILL);
+                    kill_attempt(name(), 0.0);
+                },
+                [this](const std::string& words) { say(words); }};
+    }
+
+    std::string name_of(int number) const { return launch_ + "." + std::to_string(number); }
+    std::string name() const { return name_of(supervisor_.attempt()); }
+
+    Sight look() {
+        Sight sight;
+        relay();
+        sight.running = child_ && child_->running();
+        sight.not_started = not_started_;
+        if (child_ && !sight.running) end_child();
+        sight.coordinator_gone = seen_ && seen_->host == host_name() && is_gone(seen_->pid);
+        // After the processes are gone: what they still said counts.
+        sight.status = folder_.life(sight.readable);
+        if (supervisor_.attempt() > 0) sight.summary = folder_.summary(name());
+        if (!sight.running) sight.checkpoint = folder_.checkpoint();
+        if (sight.running && sight.status && sight.status->attempt == name()) seen_ = sight.status;
+        sight.now = clock_.seconds();
+        return sight;
+    }
+
+    /// The launcher has gone: nothing of its attempt may go on beside the next one.
+    void end_child() {
+        relay();
+        note("launcher: " + child_->ending());
+        child_.reset();
+        clean_up();
+        if (seen_) planner_.note_end(seen_->workers);
+        seen_.reset();
+    }
+
+    void clean_up() {
+        if (supervisor_.attempt() > 0 && !kill_attempt(name(), kKillPatience))
+            note("processes of the attempt cannot be killed");
+        temporary_.empty();
+        shared_memory_.empty();
+        std::error_code none;
+        std::filesystem::remove(key_file(), none);
+        host_keys_.reset();
+    }
+
+    std::filesystem::path key_file() const { return folder_.own() / kRunKeyName; }
+
+    /// An attempt. That it cannot be started is an end of it like others, but for the first: hosts come back.
+    void start(int number) {
+        not_started_.clear();
+        try {
+            begin(number);
+            started_ = true;
+        } catch (const std::exception& error) {
+            if (number == 1) throw;
+            not_started_ = error.what();
+            clean_up();
+        }
+    }
+
+    void begin(int number) {
+        sweep();
+        if (number > 1) wait_for_folder();
+        const StartPlan plan = planner_.plan(
+            {folder_.own() / ("hostfile-" + std::to_string(number)), temporary_.path(), shared_memory_.path()});
+        const bool goes_on = number > 1 && folder_.was_taken_by(launch_);
+        const std::vector<std::string> words = goes_on ? command_.again(folder_.checkpoint() > 0) : command_.first();
+        const std::vector<std::string> command = start_command(plan, words);
+        note("attempt " + std::to_string(number) + ": " + shell_line(command));
+        const LifeAttempt attempt{name_of(number), folder_.life_file()};
+        write_run_key(key_file());
+        if (!plan.hosts.empty()) host_keys_ = std::make_unique<HostKeys>(plan.hosts, key_file(), name_of(number));
+        child_ = std::make_unique<ChildProcess>(command, std::string(kAttemptVariable) + "=" + attempt_text(attempt));
+    }
+
+    /// A coordinator on another host may have outlived its launcher.
+    void wait_for_folder() const {
+        const FolderLock lock(folder_.run(), kFolderPatience, nullptr);
+        if (lock.refused()) throw RunError(folder_.run().string() + " is still in use by an attempt that was ended");
+    }
+
+    /// A coordinator that stands still leaves a core, where the host keeps such.
+    void dump(const LifeStatus& status) const {
+        if (status.host != host_name()) return;
+        for (const pid_t process : attempt_processes(name()))
+            if (process == status.pid) ::kill(process, SIGABRT);
+    }
+
+    /// Until something happens, or it is time to look again.
+    void wait() {
+        pollfd ends[2] = {{signals_.descriptor(), POLLIN, 0}, {child_ ? child_->words_descriptor() : -1, POLLIN, 0}};
+        poll(ends, 2, kLookMilliseconds);
+        // A launcher whose end is closed is at its end: its exit is what comes next.
+        if ((ends[1].revents & POLLHUP) != 0) poll(ends, 1, kLookMilliseconds / 10);
+        for (const int number : signals_.take())
+            take(number);
+    }
+
+    void take(int number) {
+        switch (number) {
+            case SIGCHLD:
+                return;
+            case SIGTSTP:
+                if (child_) child_->signal(planner_.stands_alone() ? SIGSTOP : SIGTSTP);
+                raise(SIGSTOP);
+                return;
+            case SIGCONT:
+                if (child_) child_->signal(SIGCONT);
+                return;
+            default:
+                supervisor_.ask_to_stop();
+        }
+    }
+
+    /// What the launcher and the ranks say goes to the terminal and to the log.
+    void relay() {
+        if (!child_) return;
+        const std::string words = child_->take_words();
+        if (words.empty()) return;
+        tell(words);
+        log_ << words << std::flush;
+    }
+
+    void say(const std::string& words) {
+        tell("treefarm: launch: " + words + "\n");
+        note(words);
+    }
+
+    void note(const std::string& words) { log_ << "launch: " << words << "\n" << std::flush; }
+
+    int finish(const SupervisorEnd& end) {
+        sweep();
+        if (end.resumable) say((end.words.empty() ? "interrupted" : end.words) + "; " + what_is_kept());
+        if (end.code == 2) folder_.give_back();
+        return end.code;
+    }
+
+    /// What there is, and the command that goes on.
+    std::string what_is_kept() const {
+        const std::string again = typed(options_);
+        if (command_.kind == LaunchedCommand::Kind::render || command_.kind == LaunchedCommand::Kind::resume) {
+            if (folder_.checkpoint() == 0)
+                return "no pass is kept in " + folder_.run().string() + "; begin again with " + again + " " +
+                       shell_line(command_.again(false));
+            return "kept in " + folder_.run().string() + ": " + render_words(folder_.run()) + "; go on with " + again +
+                   " resume " + shell_quoted(folder_.run().string());
+        }
+        return "finished ones are kept in " + folder_.run().string() + "; go on with " + again + " " +
+               shell_line(command_.words);
+    }
+
+    const LaunchOptions& options_;
+    LaunchedCommand command_;
+    const std::string launch_ = random_name();
+    const Timer clock_;
+    LaunchSignals signals_;
+    LaunchPlanner planner_;
+    LaunchFolder folder_;
+    const OwnFolder temporary_, shared_memory_;
+    std::ofstream log_;
+    std::optional<LifeStatus> seen_;  ///< the attempt's last sign of life
+    std::string not_started_;         ///< why the attempt could not be started; "" if it was
+    bool started_ = false;            ///< whether any was
+    std::unique_ptr<ChildProcess> child_;
+    std::unique_ptr<HostKeys> host_keys_;
+    Supervisor supervisor_;
+};
+
+}  // namespace
+
+int run_launch(const LaunchOptions& options) {
+    ignore_broken_pipes();
+    return LaunchRun(options, read_launched_command(options.command)).run();
+}
+
+}  // namespace treefarm

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/passes/guiding_memory.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/policy.h"
+#include "common/plan/schedule/guiding_verdict.h"
+
+namespace treefarm {
+namespace {}  // namespace
+
+GuidingVerdict GuidingMemory::after_guided(const PassPlan& pass, const GuidingEvidence& evidence) {
+    const GuidingWorth own = evidence.worth();
+    const bool counts = own.worth > 0 && pass.spp >= tuned<std::uint32_t>("guiding.least_judged_spp");
+    const GuidingWorth worth = counts ? worth_with(pass, evidence, own) : own;
+    const Guiding verdict = judge_guiding(pass, worth, before_, std::min(mistrust_, noisier()));
+    if (counts) before_ = worth;
+    mistrust_ = std::sqrt(mistrust_);
+    if (verdict == Guiding::loses) first_to_take_up_ = pass.index + 2;  // the first unguided pass alone has no say
+    return {verdict, worth};
+}
+
+GuidingWorth GuidingMemory::worth_with(const PassPlan& pass, const GuidingEvidence& evidence, const GuidingWorth& own) {
+    // The light that the noise of short passes is relative to is that of an image of few samples.
+    if (pass.spp >= tuned<std::uint32_t>("guiding.least_settled_spp") &&
+        told_.samples < tuned<std::uint32_t>("guiding.least_settled_spp"))
+        told_ = {};
+    told_.add(evidence);
+    // Passes that each know too little may know enough together, and what one has missed others have met.
+    const GuidingWorth all = told_.worth();
+    const bool knows_less = own.known < tuned("guiding.least_known") ||
+                            all.unguided_variance > tuned("guiding.mistrusted") * own.unguided_variance;
+    return knows_less && all.known >= tuned("guiding.least_known") ? all : own;
+}
+
+GuidingVerdict GuidingMemory::after_unguided(const PassPlan& pass, double variance, Guiding now) {
+    if (!(before_.worth > 0 && variance > 0)) return {now, before_};
+    unguided_samples_ += pass.spp;
+    unguided_variance_ += (variance - unguided_variance_) * pass.spp / unguided_samples_;
+    const double factor = noisier();
+    if (pass.index < first_to_take_up_ || factor == 1 || factor * before_.worth <= tuned("guiding.taking_up"))
+        return {now, before_};
+    mistrust_ = factor;
+    return {Guiding::open, before_};
+}
+
+double GuidingMemory::noisier() const {
+    const double told = told_.worth().unguided_variance;
+    const double ratio = told > 0 && unguided_samples_ > 0 ? unguided_variance_ / told : 1.0;
+    return ratio > tuned("guiding.mistrusted") ? ratio : 1.0;
+}
+
+}  // namespace treefarm

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/passes/pass_loop.h"
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+#include "common/base/hash.h"
+#include "common/plan/schedule/kernel.h"
+
+namespace treefarm {
+
+namespace {
+
+class PassLoop {
+  public:
+    PassLoop(Farm& farm, const Resolved& job, const PassChooser& choose, RenderState state, int width, int height,
+             const PassHooks& hooks)
+        : farm_(farm),
+          job_(job),
+          choose_(choose),
+          hooks_(hooks),
+          state_(std::move(state)),
+          seconds_before_(state_.begun ? state_.begun->run_seconds : state_.history.seconds) {
+        result_.width = width;
+        result_.height = height;
+    }
+
+    RenderResult run() {
+        try {
+            if (!state_.reports.empty()) show_finished();
+            render_passes();
+            result_.tree = ended_with_ ? std::move(*ended_with_) : state_.tree;
+        } catch (...) {
+            hand_over();
+            if (hooks_.on_failure) hooks_.on_failure(std::move(result_));
+            throw;
+        }
+        hand_over();
+        return std::move(result_);
+    }
+
+  private:
+    /// Gives away the state, unless a pass was being added to it.
+    void hand_over() {
+        if (!whole_ || !hooks_.on_last_state) return;
+        try {
+            if (collecting_) note_begun();
+        } catch (const std::bad_alloc&) {  // the finished passes are kept
+        }
+        if (!state_.reports.empty() || state_.begun) hooks_.on_last_state(std::move(state_));
+    }
+
+    /// Adds to the state what has come in of the pass in hand.
+    void note_begun() {
+        BegunPass begun;
+        farm_.fill(begun);
+        if (begun.done.empty() && begun.deadly.empty()) return;
+        begun.memory = collecting_->memory;
+        begun.collect_seconds = collecting_->before + collecting_->clock.seconds();
+        begun.run_seconds = run_seconds();
+        state_.begun = std::move(begun);
+    }
+
+    /// The image of passes that an earlier life of the render finished.
+    void show_finished() {
+        farm_.beat_during([&] {
+            PassVariance known;
+            combine_films(state_, job_, result_);
+            describe_image(state_, job_, result_, known);
+        });
+        set_result();
+        clock_.restart();  // to combine them again is not rendering
+    }
+
+    void render_passes() {
+        NextPass next = choose_next(true);
+        if (state_.begun) {  // it is finished in any case, and as it was begun
+            next.pass = state_.begun->plan;
+            next.memory = state_.begun->memory;
+        }
+        while (next.pass) {
+            const Timer timer;
+            PassPlan plan = *next.pass;
+            plan.kernel = kernel_of(job_, plan, facts_of(state_.tree));
+            PassReport report;
+            report.plan = plan;
+            broadcast(plan, report);
+            if (!collect(plan, next, report)) {
+                result_.interrupted = true;
+                if (hooks_.on_interruption) hooks_.on_interruption(result_);
+                break;
+            }
+            if (hooks_.on_collected) hooks_.on_collected();
+            DevelopedState developed;
+            whole_ = false;
+            add_film(state_, job_, collected(plan));
+            farm_.beat_during([&] { develop(developed, report); });
+            next = look_ahead(next, report);
+            farm_.beat_during([&] { learn_from(plan, next, report); });
+            finish(std::move(developed), report, timer.seconds());
+        }
+    }
+
+    /// The next pass. A tree that is there already guides it as it was refined, whatever was expected of the pass then.
+    NextPass choose_next(bool has_tree) {
+        state_.history.threads = thread_count();
+        NextPass next = choose_(state_.history);
+        if (next.pass && has_tree && state_.last_tree) next.pass->last_tree = *state_.last_tree;
+        if (next.pass) set_emission(*next.pass, job_, state_.history);
+        return next;
+    }
+
+    void broadcast(const PassPlan& plan, PassReport& report) {
+        state_.tree.set_pass(plan.index);  // also where the pass before taught nothing
+        Bytes encoded = state_.tree.encode();
+        coming_tree_hash_ = hash_bytes(encoded);
+        report.tree = tree_figures(state_.tree, encoded.size());
+        farm_.begin_pass(plan, state_.tree, std::move(encoded), result_.width, result_.height,
+                         state_.begun ? &*state_.begun : nullptr);
+        report.seconds.all = state_.begun ? state_.begun->collect_seconds : 0.0;
+        state_.begun.reset();  // it grows in the farm from now on
+    }
+
+    /// Collects the results of a pass; false if it was interrupted.
+    bool collect(const PassPlan& plan, const NextPass& chosen, PassReport& report) {
+        collecting_ = Collecting{chosen.memory, report.seconds.all, kept_value()};
+        while (!farm_.pass_complete()) {
+            if (hooks_.interrupted && hooks_.interrupted()) return false;
+            farm_.step();
+            tell_progress(plan, chosen);
+            if (hooks_.state_due && hooks_.state_due()) show_begun();
+        }
+        const double seconds = collecting_->before + collecting_->clock.seconds();
+        collecting_.reset();
+        if (is_first_) loading_seconds_ = farm_.first_request_seconds();
+        report.seconds.broadcast = farm_.broadcast_seconds();
+        report.seconds.collect = std::max(0.0, seconds - report.seconds.broadcast);
+        return true;
+    }
+
+    /// A state that says no more than the one on disk would look to a supervisor as if the render got on.
+    void show_begun() {
+        const std::uint64_t value = kept_value();
+        if (value == std::exchange(collecting_->kept, value)) return;
+        note_begun();
+        if (state_.begun && hooks_.on_state) hooks_.on_state(state_);
+        state_.begun.reset();
+    }
+
+    /// Changes with what is worth keeping of the pass in hand.
+    std::uint64_t kept_value() const {
+        std::uint64_t value = farm_.ledger().done();
+        for (const DeadlyUnit& unit : farm_.ledger().deadly())
+            value += unit.deaths;
+        return value;
+    }
+
+    CollectedPass collected(const PassPlan& plan) {
+        CollectedPass pass{plan, farm_.take_pixels(), {}, farm_.collector().totals()};
+        if (state_.aovs.requested()) pass.aovs = farm_.take_aovs();
+        return pass;
+    }
+
+    void develop(DevelopedState& developed, PassReport& report) {
+        Timer timer;
+        combine_films(state_, job_, developed);
+        report.seconds.film = timer.seconds();
+        timer.restart();
+        fill_from_collector(report, farm_.collector());
+        describe_image(state_, job_, developed, report.variance);
+        state_.history.error = report.error = developed.error;
+        judge(state_, job_, *developed.image, static_cast<std::size_t>(result_.width), report);
+        report.seconds.error = timer.seconds();
+    }
+
+    NextPass look_ahead(const NextPass& finished, PassReport& report) {
+        const double before = state_.reports.empty() ? 0.0 : state_.reports.back().seconds.refine;
+        const PassSeconds& s = report.seconds;
+        const double loading = is_first_ ? loading_seconds_ : 0.0;
+        PassFacts facts;
+        facts.spp = report.plan.spp;
+        facts.spp_before = report.plan.first_sample;
+        facts.mse_of_sample = report.variance.mse_of_sample;
+        facts.stuv_trimmed = report.variance.stuv_trimmed;
+        facts.collect_seconds = s.collect;
+        facts.overhead_seconds = std::max(0.0, s.broadcast - loading) + s.film + s.error + before;
+        facts.trace_core_seconds = report.stats.trace_seconds;
+        facts.record_core_seconds = s.splat;
+        facts.threads = thread_count();
+        facts.record = report.plan.record;
+        facts.next_event = report.plan.next_event;
+        RenderHistory& history = state_.history;
+        history.passes.push_back(facts);
+        history.budget = finished.memory;
+        history.threads = facts.threads;
+        history.seconds = report.run_seconds = seconds_before_ + clock_.seconds() - loading_seconds_;
+        report.halving = forecast_error(history, job_, 0.5 * report.error.relative());
+        if (job_.budget.error > 0) report.target = forecast_error(history, job_, job_.budget.error);
+        return choose_next(!report.plan.record);
+    }
+
+    void learn_from(const PassPlan& plan, const NextPass& next, PassReport& report) {
+        if (!plan.record) return;
+        if (!next.pass) {
+            if (!hooks_.on_state) return;  // nobody can go on from here
+            ended_with_ = state_.tree;
+        }
+        const Timer timer;
+        learn(state_, job_, plan, next.pass, farm_.collector().sums(), report.price, report.refine);
+        report.seconds.refine = timer.seconds();
+    }
+
+    void finish(DevelopedState developed, PassReport& report, double seconds) {
+        report.seconds.all += seconds;
+        report.spp_done = report.plan.first_sample + report.plan.spp;
+        report.workers = farm_.roster().present_count();
+        report.threads = thread_count();
+        count_idle(report);
+        // All at once: whatever fails before leaves the pass before, whole.
+        state_.reports.push_back(report);
+        state_.tree_hash = coming_tree_hash_;
+        whole_ = true;
+        static_cast<DevelopedState&>(result_) = std::move(developed);
+        set_result();
+        is_first_ = false;
+        if (hooks_.on_pass) hooks_.on_pass(report, *result_.image);
+        if (hooks_.on_result) hooks_.on_result(result_);
+        if (hooks_.on_state) hooks_.on_state(state_);
+    }
+
+    void set_result() {
+        result_.passes = state_.reports;
+        result_.spp = state_.spp();
+        result_.tree_hash = state_.tree_hash;
+    }
+
+    std::uint32_t thread_count() const { return static_cast<std::uint32_t>(farm_.roster().thread_count()); }
+
+    /// Reading in the scene, before the first pass, is not rendering.
+    double run_seconds() const {
+        if (!is_first_) return seconds_before_ + clock_.seconds() - loading_seconds_;
+        const double loading = farm_.first_request_seconds();
+        return seconds_before_ + (loading > 0 ? std::max(0.0, clock_.seconds() - loading) : 0.0);
+    }
+
+    void tell_progress(const PassPlan& plan, const NextPass& chosen) {
+        if (!hooks_.on_progress) return;
+        const Ledger& ledger = farm_.ledger();
+        const double of_pass = static_cast<double>(ledger.done()) / static_cast<double>(ledger.total());
+        RenderProgress progress;
+        progress.pass = plan.index;
+        progress.pass_count = chosen.pass_count;
+        progress.spp_done = result_.spp;
+        progress.spp_total = chosen.spp_total;
+        if (chosen.spp_total > 0)
+            progress.fraction = std::min(1.0, (plan.first_sample + of_pass * plan.spp) / chosen.spp_total);
+        progress.error = state_.history.error;
+        progress.workers = farm_.roster().present_count();
+        progress.rays = farm_.rays_traced();
+        progress.run_seconds = run_seconds();
+        if (!result_.passes.empty()) {
+            progress.target = result_.passes.back().target;
+            progress.target_since = result_.passes.back().run_seconds;
+        }
+        hooks_.on_progress(progress);
+    }
+
+    Farm& farm_;
+    const Resolved& job_;
+    const PassChooser& choose_;
+    const PassHooks& hooks_;
+    RenderState state_;
+    RenderResult result_;  ///< what of the state is shown
+    std::uint64_t coming_tree_hash_ = 0;
+    std::optional<AnyModel> ended_with_;  ///< the last pass's tree, where a later one was learned that nobody uses
+    /// A pass that comes in.
+    struct Collecting {
+        BudgetMemory memory;  ///< NextPass::memory
+        double before;        ///< seconds that earlier lives of the render collected
+        std::uint64_t kept;   ///< kept_value() of the newest state that was offered or gone on from
+        Timer clock{};
+    };
+    std::optional<Collecting> collecting_;
+    Timer clock_;
+    const double seconds_before_;  ///< that earlier lives of the render took
+    double loading_seconds_ = 0;   ///< until the first worker had scene and tree and asked for work
+    bool is_first_ = true;         ///< pass of this life
+    bool whole_ = true;            ///< the state is that between two passes
+};
+
+}  // namespace
+
+RenderResult run_passes(Farm& farm, const Resolved& job, const PassChooser& choose, RenderState state, int width,
+                        int height, const PassHooks& hooks) {
+    return PassLoop(farm, job, choose, std::move(state), width, height, hooks).run();
+}
+
+RenderResult run_passes(Farm& farm, const Resolved& job, const PassChooser& choose, AnyModel tree, int width,
+                        int height, const PassHooks& hooks) {
+    const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    return run_passes(farm, job, choose, first_state(job, std::move(tree), pixels), width, height, hooks);
+}
+
+}  // namespace treefarm

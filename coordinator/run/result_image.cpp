@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/run/result_image.h"
+
+#include <algorithm>
+
+namespace treefarm {
+
+namespace {
+
+void add_layer(Image& image, const std::string& layer, const std::vector<Rgb64>& values) {
+    const char* const components[] = {"R", "G", "B"};
+    for (int c = 0; c < 3; ++c) {
+        const std::span<float> channel = image.add_channel(channel_name(layer, components[c]));
+        for (std::size_t p = 0; p < values.size(); ++p)
+            channel[p] = static_cast<float>(values[p][c]);
+    }
+}
+
+}  // namespace
+
+RgbImage result_colours(const CombinedImage& image, int width, int height) {
+    RgbImage colours(width, height);
+    for (std::size_t p = 0; p < image.mean.size(); ++p) {
+        const Rgb64& mean = image.mean[p];
+        colours.pixels[p] = Rgb(static_cast<float>(mean.x), static_cast<float>(mean.y), static_cast<float>(mean.z));
+    }
+    return colours;
+}
+
+StoredChannels result_channels(const CombinedImage& image, std::span<const AovChannel> aovs, int width, int height,
+                               bool half) {
+    StoredChannels stored{Image{width, height, {}, {}}, {}};
+    Image& channels = stored.image;
+    channels.data.reserve((12 + aovs.size()) * channels.pixel_count());
+    const PixelType colours = half ? PixelType::half : PixelType::float32;
+    const auto add = [&](const std::string& layer, const std::vector<Rgb64>& values, PixelType type) {
+        add_layer(channels, layer, values);
+        stored.types.insert(stored.types.end(), 3, type);
+    };
+    add("", image.mean, colours);
+    add("variance", image.variance, PixelType::float32);
+    add("halfA", image.half[0], colours);
+    add("halfB", image.half[1], colours);
+    for (const AovChannel& aov : aovs) {
+        const std::span<float> channel = channels.add_channel(aov.name);
+        std::copy(aov.values.begin(), aov.values.end(), channel.begin());
+        stored.types.push_back(aov.precise ? PixelType::float32 : colours);
+    }
+    return stored;
+}
+
+}  // namespace treefarm

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ctime>
+#include <string>
+#include <vector>
+
+#include "common/config/job.h"
+#include "common/plan/effects/approximation.h"
+#include "common/protocol/fingerprint.h"
+#include "coordinator/farm/farm.h"
+#include "coordinator/passes/pass_loop.h"
+
+namespace treefarm {
+
+/// How a run ended.
+enum class RunState : std::uint8_t { running, done, interrupted, failed };
+const char* run_state_name(RunState state);
+
+/// Facts about a run, for its files.
+struct RunFacts {
+    std::string command;           ///< that started it
+    std::uint64_t scene_hash = 0;  ///< content_hash() of the packed scene
+    Fingerprint fingerprint;
+    std::vector<Approximation> approximations;
+    CropWindow crop{};                 ///< of a crop window's image
+    std::vector<PassPlan> schedule{};  ///< --schedule: these passes; empty: the job's own
+    std::string attempt{};             ///< of treefarm launch, that it is; "" without
+};
+
+/// How a run came out.
+struct RunEnd {
+    RunState state = RunState::failed;
+    std::string error;  ///< "" if nothing went wrong
+    double elapsed_seconds = 0;
+    std::string tree_file_hash;  ///< of tree.bin; "" without one
+};
+
+/// The files status.json and summary.json. What is no UTF-8 in names of files and hosts is replaced. `farm`: its
+/// workers are told of; `last_pass`: the last that is finished, with the forecasts that it allows. Either may be
+/// nullptr.
+std::string status_json(const RunFacts& facts, const RenderProgress& progress, double elapsed_seconds,
+                        const Farm* farm = nullptr, const PassReport* last_pass = nullptr);
+/// The file status.json before the first pass, and after the last.
+std::string status_json(const RunFacts& facts, RunState state, std::uint32_t spp_done, double elapsed_seconds);
+std::string summary_json(const Job& job, const RunFacts& facts, const RenderResult& result, const Farm* farm,
+                         const RunEnd& end);
+
+}  // namespace treefarm

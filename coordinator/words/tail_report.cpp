@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/words/tail_report.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <map>
+
+#include "common/film/noise_share.h"
+
+namespace treefarm {
+namespace {
+
+constexpr double kNoisePart = 0.4;          ///< of an image's noise, by the fewest pixels that carry it
+constexpr double kToldShare = 0.001;        ///< of all pixels: fewer that carry so much are told
+constexpr std::size_t kLeastPixels = 4096;  ///< of smaller images a thousandth is a handful
+
+/// The samples of passes that have weight in the image, which are the last ones.
+TailSamples samples_of_image(const CombinedImage& image, std::span<const PassReport> passes) {
+    TailSamples all;
+    const std::size_t count = std::min(image.weight.size(), passes.size());
+    const std::span<const PassReport> used = passes.last(count);
+    for (std::size_t k = 0; k < count; ++k)
+        for (TailSample sample : used[k].stats.tails.worst) {
+            const double weight = image.weight[image.weight.size() - count + k];
+            sample.noise = static_cast<float>(sample.noise * weight * weight);
+            if (sample.noise > 0.0f) all.add(sample);
+        }
+    return all;
+}
+
+std::string main_origin(const TailSamples& samples) {
+    std::map<std::string, double> noise;
+    for (const TailSample& sample : samples.worst)
+        noise[words(sample.origin)] += static_cast<double>(sample.noise);
+    const auto less = [](const auto& a, const auto& b) { return a.second < b.second; };
+    const auto most = std::max_element(noise.begin(), noise.end(), less);
+    return most == noise.end() ? "" : most->first;
+}
+
+}  // namespace
+
+TailReport tail_report(const CombinedImage& image, std::span<const PassReport> passes) {
+    TailReport report;
+    if (image.longest_pass < 2) return report;
+    report.share = noise_share(image.variance, kNoisePart);
+    report.worst = samples_of_image(image, passes);
+    report.origin = main_origin(report.worst);
+    report.stands_out = report.share && *report.share < kToldShare && !report.worst.worst.empty() &&
+                        image.variance.size() >= kLeastPixels;
+    return report;
+}
+
+std::string tail_text(const TailReport& tails, const std::string& debug_command, const std::string& debug_options) {
+    const TailSample& worst = tails.worst.worst.front();
+    return fmt::format(
+        "{:.2g} % of the pixels carry {:.0f} % of the noise: {}; worst: pixel ({}, {}); see it: {} {},{},{},{}{}",
+        100 * tails.share.value_or(0), 100 * kNoisePart, tails.origin, worst.x, worst.y, debug_command, worst.pass,
+        worst.x, worst.y, worst.sample, debug_options);
+}
+
+}  // namespace treefarm

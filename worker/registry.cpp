@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "worker/registry.h"
+
+#include <algorithm>
+
+#include "common/base/error.h"
+#include "common/base/timer.h"
+#include "common/config/aov_list.h"
+#include "common/config/estimators.h"
+#include "common/plan/resolve/resolve.h"
+#include "common/scene/pack/scene_codec.h"
+#include "worker/integrators/ao/ao_integrator.h"
+#include "worker/integrators/bidirectional/bidirectional_integrator.h"
+#include "worker/integrators/direct/direct_integrator.h"
+#include "worker/integrators/first_hit/first_hit.h"
+#include "worker/integrators/light/light_integrator.h"
+#include "worker/integrators/normals/normals_integrator.h"
+#include "worker/integrators/path/path_integrator.h"
+#include "worker/integrators/reference/reference_integrator.h"
+
+namespace treefarm {
+
+namespace {
+
+constexpr Integrator kIntegrators[] = {
+    {"path", prepare_path},
+    {"reference", prepare_reference},
+    {"direct", prepare_direct},
+    {"normals", prepare_normals},
+    {"ao", prepare_ao},
+    {"light", prepare_light},
+    {"bidirectional", prepare_bidirectional},
+};
+
+/// Units come in messages, and a message may say anything.
+void check_unit(const WorkUnit& unit, const PassPlan& pass, const TraceScene& scene) {
+    const Film& film = scene.film();
+    const auto within = [&](std::uint64_t count) { return unit.first <= count && unit.count <= count - unit.first; };
+    bool fits = false;
+    switch (unit.kind) {
+        case UnitKind::tile:
+            fits = pass.units.tiles && unit.x0 < unit.x1 && unit.y0 < unit.y1 && unit.x1 <= film.width &&
+                   unit.y1 <= film.height && unit.chunk < pass.chunks;
+            break;
+        case UnitKind::light_paths:
+            fits = within(std::uint64_t{pass.units.light_paths} * film.pixel_count());
+            break;
+        case UnitKind::chains:
+            fits = within(pass.units.chains);
+            break;
+    }
+    if (!fits) throw RunError("a work unit that does not fit the film");
+}
+
+/// Renders units as an integrator does that knows nothing of AOVs, and fills these, too.
+///
+/// Direct light is what the same integrator makes of the same unit where paths end after two edges. Random numbers are
+/// keyed, and neither roulette nor splitting comes before: each sample is the other's up to there, by the same guide.
+/// What it would teach the guide is dropped.
+RenderUnit with_aovs(const Integrator& integrator, const std::shared_ptr<const TraceScene>& scene, const Camera& camera,
+                     const Resolved& job, const AovLayout& layout) {
+    constexpr int kDirectDepth = 2;
+    Resolved direct_job = job;
+    direct_job.integrator.max_depth =
+        job.integrator.max_depth < 0 ? kDirectDepth : std::min(job.integrator.max_depth, kDirectDepth);
+    return [first_hit = FirstHitRenderer(scene, camera, job.sampler.seed, layout), render = prepare(job, scene),
+            direct = layout.direct() ? integrator.prepare(scene, direct_job) : RenderUnit()](
+               const PassPlan& pass, const AnySampler& guide, const WorkUnit& unit, UnitOutput& output) {
+        render(pass, guide, unit, output);
+        if (unit.kind != UnitKind::tile) return;
+        const double start = thread_cpu_seconds();
+        first_hit.render(pass, unit, output.aovs);
+        if (direct) {
+            UnitOutput part;
+            part.begin(guide.regions().distribution_count());
+            direct(pass, guide, unit, part);
+            output.aovs.direct = std::move(part.pixels);
+        }
+        output.stats.trace_seconds += thread_cpu_seconds() - start;
+    };
+}
+
+}  // namespace
+
+std::span<const Integrator> integrators() {
+    return kIntegrators;
+}
+
+const Integrator& integrator_of(const Job& job) {
+    for (const Integrator& integrator : kIntegrators)
+        if (job.integrator.type == integrator.type) return integrator;
+    throw RunError("the program has no integrator \"" + job.integrator.type + "\"");
+}
+
+RenderUnit prepare(const Resolved& job, const std::shared_ptr<const TraceScene>& scene) {
+    const Integrator& integrator = integrator_of(job);
+    if (estimator_of(job.integrator.type).from != PathsFrom::both ||
+        job.bidirectional.light_subpaths != Rule::while_it_pays)
+        return integrator.prepare(scene, job);
+    return [both = integrator.prepare(scene, job), camera = prepare_path(scene, job)](
+               const PassPlan& pass, const AnySampler& guide, const WorkUnit& unit, UnitOutput& output) {
+        (pass.light_subpaths ? both : camera)(pass, guide, unit, output);
+    };
+}
+
+RenderUnit make_renderer(std::span<const std::uint8_t> scene, const Job& job) {
+    Scene decoded = decode_scene(scene);
+    const Resolved resolved = resolve(job, decoded);
+    const Integrator& integrator = integrator_of(resolved);
+    const Camera camera = decoded.camera;
+    const auto trace_scene = std::make_shared<const TraceScene>(std::move(decoded), job);
+    const AovLayout layout(aov_requests(resolved));
+    RenderUnit render =
+        layout.empty() ? prepare(resolved, trace_scene) : with_aovs(integrator, trace_scene, camera, resolved, layout);
+    return [trace_scene, render = std::move(render)](const PassPlan& pass, const AnySampler& guide,
+                                                     const WorkUnit& unit, UnitOutput& output) {
+        check_unit(unit, pass, *trace_scene);
+        render(pass, guide, unit, output);
+    };
+}
+
+}  // namespace treefarm
