@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "worker/worker_loop.h"
 
-#include <algorithm>
 #include <chrono>
 #include <future>
 #include <random>

@@ -4,7 +4,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <vector>
 
 #include "common/comm/channel.h"
 #include "common/protocol/messages.h"

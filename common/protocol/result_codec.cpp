@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/protocol/result_codec.h"
 
-#include <array>
-
 namespace treefarm {
 
 namespace {

@@ -7,13 +7,10 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <memory>
 #include <random>
-#include <sstream>
 
 #include "common/base/error.h"
 #include "common/base/host.h"
@@ -24,7 +21,6 @@
 #include "coordinator/launch/attempt_processes.h"
 #include "coordinator/launch/child_process.h"
 #include "coordinator/launch/host_keys.h"
-#include "coordinator/launch/host_probe.h"
 #include "coordinator/launch/launch_folder.h"
 #include "coordinator/launch/launch_plan.h"
 #include "coordinator/launch/launch_signals.h"

@@ -8,15 +8,11 @@
 #include "common/plan/schedule/guiding_verdict.h"
 
 namespace treefarm {
-namespace {
-
-constexpr const Policy::Guiding& kOf = kPolicy.guiding;
-
-}  // namespace
+namespace {}  // namespace
 
 GuidingVerdict GuidingMemory::after_guided(const PassPlan& pass, const GuidingEvidence& evidence) {
     const GuidingWorth own = evidence.worth();
-    const bool counts = own.worth > 0 && pass.spp >= kOf.least_judged_spp;
+    const bool counts = own.worth > 0 && pass.spp >= tuned<std::uint32_t>("guiding.least_judged_spp");
     const GuidingWorth worth = counts ? worth_with(pass, evidence, own) : own;
     const Guiding verdict = judge_guiding(pass, worth, before_, std::min(mistrust_, noisier()));
     if (counts) before_ = worth;
@@ -26,14 +22,16 @@ GuidingVerdict GuidingMemory::after_guided(const PassPlan& pass, const GuidingEv
 }
 
 GuidingWorth GuidingMemory::worth_with(const PassPlan& pass, const GuidingEvidence& evidence, const GuidingWorth& own) {
-    // In short passes, noise is relative to the light level of an image of few samples.
-    if (pass.spp >= kOf.least_settled_spp && told_.samples < kOf.least_settled_spp) told_ = {};
+    // The light that the noise of short passes is relative to is that of an image of few samples.
+    if (pass.spp >= tuned<std::uint32_t>("guiding.least_settled_spp") &&
+        told_.samples < tuned<std::uint32_t>("guiding.least_settled_spp"))
+        told_ = {};
     told_.add(evidence);
     // Passes that each have too few samples may suffice together, and one may have missed light that others found.
     const GuidingWorth all = told_.worth();
-    const bool knows_less =
-        own.known < kOf.least_known || all.unguided_variance > kOf.mistrusted * own.unguided_variance;
-    return knows_less && all.known >= kOf.least_known ? all : own;
+    const bool knows_less = own.known < tuned("guiding.least_known") ||
+                            all.unguided_variance > tuned("guiding.mistrusted") * own.unguided_variance;
+    return knows_less && all.known >= tuned("guiding.least_known") ? all : own;
 }
 
 GuidingVerdict GuidingMemory::after_unguided(const PassPlan& pass, double variance, Guiding now) {
@@ -41,7 +39,8 @@ GuidingVerdict GuidingMemory::after_unguided(const PassPlan& pass, double varian
     unguided_samples_ += pass.spp;
     unguided_variance_ += (variance - unguided_variance_) * pass.spp / unguided_samples_;
     const double factor = noisier();
-    if (pass.index < first_to_take_up_ || factor == 1 || factor * before_.worth <= kOf.taking_up) return {now, before_};
+    if (pass.index < first_to_take_up_ || factor == 1 || factor * before_.worth <= tuned("guiding.taking_up"))
+        return {now, before_};
     mistrust_ = factor;
     return {Guiding::open, before_};
 }
@@ -49,7 +48,7 @@ GuidingVerdict GuidingMemory::after_unguided(const PassPlan& pass, double varian
 double GuidingMemory::noisier() const {
     const double told = told_.worth().unguided_variance;
     const double ratio = told > 0 && unguided_samples_ > 0 ? unguided_variance_ / told : 1.0;
-    return ratio > kOf.mistrusted ? ratio : 1.0;
+    return ratio > tuned("guiding.mistrusted") ? ratio : 1.0;
 }
 
 }  // namespace treefarm

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <vector>
 
 #include "common/film/combine.h"
 #include "common/film/error_estimate.h"

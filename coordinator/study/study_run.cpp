@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/files/atomic_file.h"
-#include "common/base/hash.h"
 #include "common/base/text/parse_text.h"
 #include "common/image/exr.h"
 #include "coordinator/farm/pulse.h"

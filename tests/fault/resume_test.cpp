@@ -6,6 +6,7 @@
 #include "common/plan/resolve/resolved_file.h"
 #include "coordinator/checkpoint/checkpoint_store.h"
 #include "tests/fault/farm_fixture.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm::test {
 namespace {
@@ -14,13 +15,7 @@ namespace fs = std::filesystem;
 
 class Resume : public FarmTest {
   protected:
-    fs::path folder_ =
-        fs::path(::testing::TempDir()) / "resume" / ::testing::UnitTest::GetInstance()->current_test_info()->name();
-
-    void SetUp() override {
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
-    }
+    const fs::path folder_ = fresh_test_folder();
 
     /// Ends the render after so many passes, and writes the state.
     void stop_after(std::size_t passes) {

@@ -28,17 +28,7 @@ Moments& moments(Result& r) {
 class ResultThatCannotBe : public FarmTest, public ::testing::WithParamInterface<Lie> {};
 
 TEST_P(ResultThatCannotBe, CostsTheWorkerItsPlaceAndIsCounted) {
-    make_workers(2);
-    first_ = 0;
-    std::atomic<bool> sent = false;
-    renderers_[1] = make_patient(sent);
-    faulty_[0]->outgoing = [&](Bytes& bytes) {
-        if (!is<Result>(bytes) || sent.exchange(true)) return true;
-        auto result = std::get<Result>(decode(bytes));
-        GetParam().tell(result);
-        bytes = encode(result);
-        return true;
-    };
+    change_first_result(GetParam().tell);
     expect_truth(render());
     EXPECT_EQ(lost_, std::set<int>{1});
     EXPECT_EQ(bad_messages_, 1u);

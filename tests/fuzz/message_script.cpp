@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/fuzz/message_script.h"
 
-#include <cmath>
 #include <limits>
 
 namespace treefarm::fuzz {

@@ -102,7 +102,7 @@ TEST(Guided, PathsTellTheVarianceAndCostOfUnguidedOnes) {
     const TraceStats& stats = unguided.stats.back();
     const double paths = 48.0 * 48.0 * plan.spp;
     const double cost = (static_cast<double>(stats.rays) +
-                         kPolicy.next_event.shadow_ray_cost * static_cast<double>(stats.shadow_rays)) /
+                         tuned("next_event.shadow_ray_cost") * static_cast<double>(stats.shadow_rays)) /
                         paths;
     EXPECT_NEAR(told.unguided_cost / cost, 1, 0.05);
 }
@@ -118,7 +118,7 @@ TEST(Guided, PathsAreKeptWhileTreesGetBetter) {
     const test::LocalRender run = test::render_locally(scene, job);
     EXPECT_TRUE(run.plans.back().guided);
     const double early = run.reports.at(3).guiding_worth.worth, late = run.reports.at(5).guiding_worth.worth;
-    EXPECT_LT(early, kPolicy.guiding.giving_up) << "or this scene shows nothing";
+    EXPECT_LT(early, tuned("guiding.giving_up")) << "or this scene shows nothing";
     EXPECT_GT(late, early);
 }
 

@@ -3,9 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
-
-#include "common/base/policy.h"
 
 namespace treefarm {
 namespace {
@@ -16,8 +13,9 @@ double diagonal2(const Box3& box) {
     return size.dot(size);
 }
 
+/// Least area of a box in the tree's cost: boxes of lamps in a line have none of their own.
 double least_area(const Box3& box) {
-    const double area = kPolicy.lights.least_area * diagonal2(box);
+    const double area = 1e-3 * diagonal2(box);
     return area > 0 ? area : 1.0;
 }
 
@@ -42,7 +40,8 @@ void LightTreeBuilder::build(std::span<const double> shares) {
     std::vector<std::uint32_t> root;
     if (!far.empty()) {
         root.push_back(binary(far, 0));
-        if (!near.empty()) open(root, kPolicy.lights.far_lanes);
+        constexpr std::size_t kFarLanes = 4;  // of the root, that emitters at infinity may have
+        if (!near.empty()) open(root, kFarLanes);
     }
     if (!near.empty()) {
         std::vector<std::uint32_t> others{binary(near, 0)};

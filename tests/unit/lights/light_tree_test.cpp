@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 #include "common/base/error.h"
 #include "common/base/random.h"
 #include "common/math/frame.h"

@@ -3,6 +3,7 @@
 
 #include "coordinator/input/meshes/ply_file.h"
 #include "tests/support/mesh_bytes.h"
+#include "tests/support/refusal.h"
 
 namespace treefarm {
 namespace {
@@ -16,12 +17,7 @@ std::string ascii(const std::string& header, const std::string& body) {
 }
 
 std::string message_of(const std::string& bytes) {
-    try {
-        parse_ply(bytes, "m.ply");
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "no error";
+    return test::refusal_of([&] { parse_ply(bytes, "m.ply"); }, "no error");
 }
 
 void expect_refused(const std::string& bytes, const std::string& begin) {

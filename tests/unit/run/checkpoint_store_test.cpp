@@ -9,6 +9,8 @@
 #include "common/config/aov_list.h"
 #include "common/film/pixel_codec.h"
 #include "common/plan/forecast/memory.h"
+#include "tests/support/refusal.h"
+#include "tests/support/test_folder.h"
 #include "tests/support/test_scenes.h"
 
 namespace treefarm {
@@ -20,14 +22,8 @@ constexpr std::size_t kPixels = 12;
 
 class Checkpoints : public ::testing::Test {
   protected:
-    fs::path run_ = fs::path(::testing::TempDir()) / "checkpoints" /
-                    ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::path run_ = test::fresh_test_folder();
     fs::path folder_ = run_ / kCheckpointFolder;
-
-    void SetUp() override {
-        fs::remove_all(run_);
-        fs::create_directories(run_);
-    }
 
     /// A state after so many passes, whose films hold their numbers.
     static RenderState state_of(std::size_t passes) {
@@ -62,12 +58,7 @@ class Checkpoints : public ::testing::Test {
     }
 
     std::string fault() const {
-        try {
-            load();
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
+        return test::refusal_of([&] { load(); });
     }
 
     void damage(const fs::path& file) const {

@@ -24,7 +24,7 @@ class GlassSplits {
     /// Probability with which a way of this probability is followed, bounded below so that its weight does not overflow
     /// and 24 random bits resolve it.
     static float chance(float probability) {
-        return std::clamp(kPolicy.walk.split_often * probability, kPolicy.walk.split_least, 1.0f);
+        return std::clamp(tuned<float>("walk.split_often") * probability, 0x1p-12f, 1.0f);
     }
 
     /// Splits a path at its first surface, where path.scatter has been drawn: if the other way is open, the path takes

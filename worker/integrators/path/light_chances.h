@@ -50,7 +50,7 @@ class LightChances {
     template <class Path>
     void traced(Path& path, bool delta) const {
         if constexpr (kConverts)
-            if (settings_.twin) path.twin.add_cost(static_cast<float>(kPolicy.next_event.shadow_ray_cost));
+            if (settings_.twin) path.twin.add_cost(static_cast<float>(tuned("next_event.shadow_ray_cost")));
         if (counts(path) && !delta) [[unlikely]]
             counts_.traced(path.guidance.region);
     }

@@ -15,7 +15,7 @@ namespace treefarm {
 inline bool counts_next_event(const Resolved& job, const PassPlan& pass, const RegionSampler& guide) {
     return pass.next_event && job.decides_next_event && guide.knows_image() &&
            (!pass.record || guide.decides_next_event()) &&
-           multiples_in(pass.first_sample, pass.spp, kPolicy.next_event.counted_every) > 0;
+           multiples_in(pass.first_sample, pass.spp, tuned<std::uint32_t>("next_event.counted_every")) > 0;
 }
 
 /// Settings of the walk, fixed for a pass.
