@@ -37,26 +37,27 @@ struct FarmOptions {
 };
 
 /// Adds --threads, --quiet, --verbose
-void add_voice_options(CLI::App& command, FarmOptions& options);
+void add_log_options(CLI::App& command, FarmOptions& options);
 /// Adds --threads, --quiet, --verbose, --start-seconds
 void add_farm_options(CLI::App& command, FarmOptions& options);
 
 /// The voice of this process: where it speaks, and how much it says.
-struct Voice {
+struct LogOutput {
     ConsolePtr console;
-    Loudness loudness = Loudness::normal;
+    Verbosity verbosity = Verbosity::normal;
 };
-Voice make_voice(const LaunchEnvironment& launch, const FarmOptions& options);
+LogOutput make_log_output(const LaunchEnvironment& launch, const FarmOptions& options);
 
 /// Only what goes wrong, and no status.
-Voice errors_only();
+LogOutput errors_only();
 
 /// A worker in this process. `threads`: 0: its processors.
-LocalWorker local_worker(unsigned threads, const Voice& voice);
+LocalWorker local_worker(unsigned threads, const LogOutput& log_output);
 
 /// Runs the task over all processes of the MPI job, or over coordinator and one worker in this process. Returns the
 /// exit code; InputError and RunError leave it in one process only.
-int run_on_farm(const LaunchEnvironment& launch, const FarmOptions& options, const Voice& voice, const FarmTask& task);
+int run_on_farm(const LaunchEnvironment& launch, const FarmOptions& options, const LogOutput& log_output,
+                const FarmTask& task);
 
 /// Adds a warning if there are more threads than processors.
 void warn_if_crowded(unsigned threads, std::vector<std::string>& warnings);

@@ -85,8 +85,8 @@ int render_shot(const LaunchEnvironment& launch, const RenderOptions& options) {
     if (is_separate_world(launch)) return 2;
     Shot shot;
     FarmTask task;
-    const Voice voice = make_voice(launch, options.farm);
-    const Log log = make_log("treefarm", {}, voice.console, voice.loudness);
+    const LogOutput log_output = make_log_output(launch, options.farm);
+    const Log log = make_log("treefarm", {}, log_output.console, log_output.verbosity);
     const std::string attempt = launch.life ? launch.life->attempt() : "";
     task.prepare = [&] {
         shot.frames = parse_frames(options.frames, Location{"--frames", 0, 0});
@@ -101,12 +101,12 @@ int render_shot(const LaunchEnvironment& launch, const RenderOptions& options) {
             log->warn("{}", warning);
     };
     task.coordinate = [&](const RenderWorkers& workers) -> CoordinatorEnd {
-        SeriesContext series = make_series(render_origin(options), workers, voice, log, launch.life);
+        SeriesContext series = make_series(render_origin(options), workers, log_output, log, launch.life);
         series.overwrite = options.overwrite;
         const ShotOutcome outcome = run_shot(shot, series);
         return {exit_code_of(outcome.state, outcome.missed_target), outcome.lost_peers};
     };
-    return run_on_farm(launch, options.farm, voice, task);
+    return run_on_farm(launch, options.farm, log_output, task);
 }
 
 }  // namespace treefarm

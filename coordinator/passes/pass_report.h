@@ -7,7 +7,7 @@
 
 #include "common/film/combine.h"
 #include "common/film/error_estimate.h"
-#include "common/film/guiding_worth.h"
+#include "common/film/guiding_efficiency.h"
 #include "common/film/trace_stats.h"
 #include "common/guiding/any_guide.h"
 #include "common/plan/forecast/forecast.h"
@@ -59,13 +59,13 @@ struct PassReport {
     PassSeconds seconds;
     TraceStats stats;
     PassVariance variance;
-    ErrorEstimate error;                  ///< of the image including this pass
-    GuidingWorth guiding_worth;           ///< the basis of the verdict on guiding after this pass
-    Guiding guiding = Guiding::open;      ///< verdict after this pass
-    SplittingGain splitting_gain;         ///< of a guided pass that recorded and may split
-    bool splitting = true;                ///< whether splitting may pay, after this pass
-    LightSubpathGain light_subpath_gain;  ///< of a pass with the comparison
-    bool light_subpaths = true;           ///< whether light subpaths may pay, after this pass
+    ErrorEstimate error;                   ///< of the image including this pass
+    GuidingEfficiency guiding_efficiency;  ///< the basis of the verdict on guiding after this pass
+    Guiding guiding = Guiding::open;       ///< verdict after this pass
+    SplittingGain splitting_gain;          ///< of a guided pass that recorded and may split
+    bool splitting = true;                 ///< whether splitting may pay, after this pass
+    LightSubpathGain light_subpath_gain;   ///< of a pass with the comparison
+    bool light_subpaths = true;            ///< whether light subpaths may pay, after this pass
     /// number of emitters that light paths may start from, if their choice is learned
     std::uint64_t emitters = 0;
     std::uint64_t emitters_of_half = 0;  ///< the smallest number of them that started half of this pass's light paths

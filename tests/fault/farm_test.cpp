@@ -107,13 +107,13 @@ TEST_F(FarmTest, AWorkerThatWasThoughtLostJoinsAgain) {
     EXPECT_TRUE(orderly_);
 }
 
-TEST_F(FarmTest, ACorruptResultCostsTheWorkerItsPlace) {
+TEST_F(FarmTest, ACorruptResultExcludesTheWorker) {
     on_first_result([](Bytes& bytes) { bytes[bytes.size() / 2] ^= 0x10; });
     expect_truth(render());
     EXPECT_EQ(lost_, std::set<int>{1});
 }
 
-TEST_F(FarmTest, AResultThatLiesIsRefused) {
+TEST_F(FarmTest, AForgedResultIsRefused) {
     change_first_result([](Result& result) {
         ++result.units[0].unit.x0;  // work that it was not given
         ++result.units[0].unit.x1;

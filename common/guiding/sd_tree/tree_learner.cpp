@@ -10,7 +10,7 @@ SdTree TreeLearner::learn(const SdTree& tree, const CellSums& sums, const Refine
     if (learn_views) advice = views_.judge(tree, sums, settings.last_update);
     SdTree next = refine(tree, sums, settings, report, advice);
     regions_.learn(tree, sums, settings, learn_mixture, report, next);
-    if (learn_views) views_.hand_down(report.view_origins, next);
+    if (learn_views) views_.set_fractions(report.view_origins, next);
     return next;
 }
 

@@ -20,14 +20,15 @@ double bar(std::uint32_t spp) {
 
 }  // namespace
 
-Guiding judge_guiding(const PassPlan& pass, const GuidingWorth& worth, const GuidingWorth& before, double mistrust) {
-    if (!(worth.worth > 0) || pass.spp < tuned<std::uint32_t>("guiding.least_judged_spp") ||
-        worth.known < tuned("guiding.least_known"))
+Guiding judge_guiding(const PassPlan& pass, const GuidingEfficiency& efficiency, const GuidingEfficiency& before,
+                      double mistrust) {
+    if (!(efficiency.efficiency > 0) || pass.spp < tuned<std::uint32_t>("guiding.least_judged_spp") ||
+        efficiency.known < tuned("guiding.least_known"))
         return Guiding::open;
-    const bool comparable = before.worth > 0 && before.known >= tuned("guiding.least_known");
-    const double growth = comparable ? worth.worth / before.worth : 1.0;
-    const double next = worth.worth * std::max(growth, 1.0);
-    const double most = next * mistrust * std::exp(tuned("guiding.giving_up_errors") * worth.error);
+    const bool comparable = before.efficiency > 0 && before.known >= tuned("guiding.least_known");
+    const double growth = comparable ? efficiency.efficiency / before.efficiency : 1.0;
+    const double next = efficiency.efficiency * std::max(growth, 1.0);
+    const double most = next * mistrust * std::exp(tuned("guiding.giving_up_errors") * efficiency.error);
     return most < bar(pass.spp) ? Guiding::loses : Guiding::open;
 }
 

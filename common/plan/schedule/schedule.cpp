@@ -64,7 +64,7 @@ void set_splitting(PassPlan& pass, const Resolved& job, bool pays) {
 
 bool splitting_may_pay(const PassPlan& pass, const SplittingGain& gain) {
     if (pass.spp < tuned<std::uint32_t>("splitting.least_spp") || gain.variance == 0 ||
-        gain.found < tuned("splitting.least_found"))
+        gain.mean_ratio < tuned("splitting.least_found"))
         return true;
     if (gain.variance < tuned("splitting.least_quietened")) return false;
     if (!pass.next_event) return gain.variance >= tuned("splitting.least_gain_alone") * gain.rays;
@@ -81,7 +81,7 @@ void set_light_subpaths(PassPlan& pass, const Resolved& job, bool pays) {
 
 bool light_subpaths_may_pay(const PassPlan& pass, const LightSubpathGain& gain) {
     if (pass.spp < tuned<std::uint32_t>("light_subpaths.least_spp") || gain.noise == 0) return true;
-    return gain.found < tuned("light_subpaths.least_found") ||
+    return gain.mean_ratio < tuned("light_subpaths.least_found") ||
            gain.at_equal_cost() >= tuned("light_subpaths.least_gain");
 }
 
