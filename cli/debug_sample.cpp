@@ -55,7 +55,7 @@ AnyModel learn_tree(const RenderRequest& request, const std::vector<PassPlan>& p
     RenderState state = nearest_state(request, plans, pass);
     const bool learns = request.plan.job.guides || request.plan.job.decides_next_event;
     if (state.reports.size() >= pass || !learns) return std::move(state.tree);
-    const Log log = make_log("treefarm", {}, request.console, Loudness::quiet);
+    const Log log = make_log("treefarm", {}, request.console, Verbosity::quiet);
     auto channels = make_in_process_channels(2);
     std::thread worker([&] {
         WorkerSettings settings;
@@ -121,7 +121,7 @@ std::vector<PassPlan> known_passes(const RenderRequest& request) {
     return request.schedule.empty() ? plan_passes(request.plan.job) : request.schedule;
 }
 
-[[noreturn]] void refuse_place(const RenderRequest& request, const std::vector<PassPlan>& plans, const char* what) {
+[[noreturn]] void refuse_location(const RenderRequest& request, const std::vector<PassPlan>& plans, const char* what) {
     const Film& film = request.scene.film;
     throw InputError(kHere, std::string("there is no such ") + what,
                      "the image has " + std::to_string(film.width) + " x " + std::to_string(film.height) +
@@ -144,7 +144,7 @@ int debug_sample(const RenderRequest& request, const SampleName& name) {
     const Film& film = request.scene.film;
     if (name.pass >= plans.size() || name.x >= film.width || name.y >= film.height ||
         name.sample >= plans[name.pass].spp)
-        refuse_place(request, plans, "sample");
+        refuse_location(request, plans, "sample");
     const auto [tree, pass] = tree_and_pass(request, plans, name.pass);
     const TraceScene scene(request.scene, request.job);
     const std::string text =
@@ -164,7 +164,7 @@ int debug_tile(const RenderRequest& request, const std::string& text) {
                height = static_cast<std::uint32_t>(request.scene.film.height);
     if (n[0] >= plans.size() || n[1] >= n[3] || n[2] >= n[4] || n[3] > width || n[4] > height ||
         n[5] >= plans[n[0]].chunks)
-        refuse_place(request, plans, "tile");
+        refuse_location(request, plans, "tile");
     const auto [tree, pass] = tree_and_pass(request, plans, n[0]);
     const RenderUnit render = make_renderer(encode_scene(request.scene), request.plan.job);
     const AnySampler guide(tree);

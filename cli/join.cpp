@@ -70,10 +70,10 @@ bool is_done(const JoinOptions& options) {
 /// A worker that joins a run, and again after each loss of its connection.
 class Guest {
   public:
-    Guest(const JoinOptions& options, unsigned threads, const Voice& voice, const std::string& name)
+    Guest(const JoinOptions& options, unsigned threads, const LogOutput& log_output, const std::string& name)
         : options_(options),
           settings_(worker_settings(threads)),
-          log_(make_log(name, {}, voice.console, voice.loudness)) {}
+          log_(make_log(name, {}, log_output.console, log_output.verbosity)) {}
 
     /// The exit code.
     int run() {
@@ -192,13 +192,13 @@ int join(const LaunchEnvironment& launch, const JoinOptions& options) {
     int code = 0;
     const int number = workers > 1 ? as_many(options.workers, code) : 1;
     if (number == 0) return code;
-    const Voice voice = make_voice(launch, options.farm);
+    const LogOutput log_output = make_log_output(launch, options.farm);
     const std::string name = "joined worker" + (workers > 1 ? " " + std::to_string(number) : "");
     std::vector<std::string> warnings;
     if (number == 1) warn_if_crowded(threads * workers, warnings);
     for (const std::string& warning : warnings)
-        make_log(name, {}, voice.console, voice.loudness)->warn("{}", warning);
-    return Guest(options, threads, voice, name).run();
+        make_log(name, {}, log_output.console, log_output.verbosity)->warn("{}", warning);
+    return Guest(options, threads, log_output, name).run();
 }
 
 }  // namespace
@@ -214,7 +214,7 @@ void add_join_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_
     add_seconds_option(*command, "--wait", options->wait_seconds,
                        "how long to wait for a render that is not there yet, or has gone without being done "
                        "(default: not for one that is not there, 60 s for one that has gone)");
-    add_voice_options(*command, options->farm);
+    add_log_options(*command, options->farm);
     command->footer(std::string("treefarm render scene.xml --run-dir RUN_DIR --set farm.join=true\n") +
                     "treefarm join RUN_DIR\n" +
                     "Exit codes: 0 the render is over, or this worker was told to leave, 1 the connection was lost, 2 "

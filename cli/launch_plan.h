@@ -19,12 +19,12 @@ class LaunchPlanner {
     explicit LaunchPlanner(const LaunchOptions& options);
 
     /// Files and folders of an attempt.
-    struct Places {
+    struct LaunchPaths {
         std::filesystem::path hostfile, temporary, shared_memory;
     };
     /// How the next attempt is started; asks hosts whether they answer, and writes a hostfile of those that do. Throws
     /// RunError where none is left.
-    StartPlan plan(const Places& places) const;
+    StartPlan plan(const LaunchPaths& paths) const;
 
     /// An attempt has ended, and its coordinator had these workers.
     void note_end(const std::vector<LifeWorker>& workers);
@@ -34,7 +34,7 @@ class LaunchPlanner {
 
   private:
     Starter choose_starter() const;
-    void use_hosts(const Places& places, StartPlan& plan) const;
+    void use_hosts(const LaunchPaths& paths, StartPlan& plan) const;
 
     const LaunchOptions& options_;
     std::optional<HostPool> hosts_;

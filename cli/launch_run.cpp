@@ -88,7 +88,7 @@ class LaunchRun {
           temporary_(temporary_folder()),
           shared_memory_(shared_memory_folder()),
           log_(folder_.own() / "log", std::ios::app),
-          supervisor_(limits(options), hands(), [this](int number) { return name_of(number); }) {}
+          supervisor_(limits(options), actions(), [this](int number) { return name_of(number); }) {}
 
     int run() {
         try {
@@ -111,7 +111,7 @@ class LaunchRun {
         return limits;
     }
 
-    SupervisorHands hands() {
+    SupervisorActions actions() {
         return {[this](int number) { start(number); },
                 [this] { child_->signal(SIGUSR1); },
                 [this](const LifeStatus& status) { dump(status); },

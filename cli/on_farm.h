@@ -37,7 +37,7 @@ struct FarmOptions {
 };
 
 /// --threads, --quiet, --verbose
-void add_voice_options(CLI::App& command, FarmOptions& options);
+void add_log_options(CLI::App& command, FarmOptions& options);
 /// --threads, --quiet, --verbose, --start-seconds
 void add_farm_options(CLI::App& command, FarmOptions& options);
 
@@ -46,15 +46,16 @@ struct WorkerSettings;
 WorkerSettings worker_settings(unsigned threads);
 
 /// The voice of this process: where it speaks, and how much it says.
-struct Voice {
+struct LogOutput {
     ConsolePtr console;
-    Loudness loudness = Loudness::normal;
+    Verbosity verbosity = Verbosity::normal;
 };
-Voice make_voice(const LaunchEnvironment& launch, const FarmOptions& options);
+LogOutput make_log_output(const LaunchEnvironment& launch, const FarmOptions& options);
 
 /// Runs the task over all processes of the MPI job, or over coordinator and one worker in this process. Returns the
 /// exit code; InputError and RunError leave it in one process only.
-int run_on_farm(const LaunchEnvironment& launch, const FarmOptions& options, const Voice& voice, const FarmTask& task);
+int run_on_farm(const LaunchEnvironment& launch, const FarmOptions& options, const LogOutput& log_output,
+                const FarmTask& task);
 
 /// Warns where more threads were asked for than processors are there.
 void warn_if_crowded(unsigned threads, std::vector<std::string>& warnings);

@@ -34,7 +34,7 @@ Probe run_probe(const RenderRequest& request, double seconds, unsigned threads) 
     FarmTask task;
     task.prepare = [] {};
     task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
-        const Log log = make_log("treefarm", {}, request.console, Loudness::quiet);
+        const Log log = make_log("treefarm", {}, request.console, Verbosity::quiet);
         Farm farm(channel, request.plan.job, encode_scene(request.scene), request.fingerprint.hash(), log);
         farm.gather(interrupted);
         farm.allow_negative(film.is_signed());
@@ -53,7 +53,7 @@ Probe run_probe(const RenderRequest& request, double seconds, unsigned threads) 
                                 .interrupted;
         return {0, farm.lost_peers()};
     };
-    run_on_farm(LaunchEnvironment{}, {.threads = threads}, {request.console, Loudness::quiet}, task);
+    run_on_farm(LaunchEnvironment{}, {.threads = threads}, {request.console, Verbosity::quiet}, task);
     return probe;
 }
 

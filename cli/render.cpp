@@ -35,20 +35,20 @@ int render_on_farm(const LaunchEnvironment& launch, const FarmOptions& farm, con
     RenderRequest request;
     std::optional<int> there;
     FarmTask task;
-    const Voice voice = make_voice(launch, farm);
+    const LogOutput log_output = make_log_output(launch, farm);
     task.prepare = [&] {
         if (launch.life) launch.life->enter(LifePhase::scene);
-        const ReadingNotice notice(voice.console, name);
+        const ReadingNotice notice(log_output.console, name);
         request = read();
         if (go_on) there = go_on(request);
         warn_if_crowded(farm.threads, request.warnings);
-        request.console = voice.console;
-        request.loudness = voice.loudness;
+        request.console = log_output.console;
+        request.verbosity = log_output.verbosity;
         request.life = launch.life;
     };
     task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
         if (there) {
-            make_log("treefarm", {}, voice.console, voice.loudness)
+            make_log("treefarm", {}, log_output.console, log_output.verbosity)
                 ->info("{} holds this render already: {}", request.job.output.directory,
                        render_words(request.job.output.directory));
             return {*there, {}};
@@ -56,7 +56,7 @@ int render_on_farm(const LaunchEnvironment& launch, const FarmOptions& farm, con
         const RenderOutcome outcome = run_render(channel, request, interrupted);
         return {exit_code_of(outcome.state, outcome.missed_target), outcome.lost_peers};
     };
-    return run_on_farm(launch, farm, voice, task);
+    return run_on_farm(launch, farm, log_output, task);
 }
 
 void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const std::string& command_line,

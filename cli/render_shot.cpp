@@ -83,8 +83,8 @@ int render_shot(const LaunchEnvironment& launch, const RenderOptions& options) {
     if (is_separate_world(launch)) return 2;
     Shot shot;
     FarmTask task;
-    const Voice voice = make_voice(launch, options.farm);
-    const Log log = make_log("treefarm", {}, voice.console, voice.loudness);
+    const LogOutput log_output = make_log_output(launch, options.farm);
+    const Log log = make_log("treefarm", {}, log_output.console, log_output.verbosity);
     task.prepare = [&] {
         shot.frames = parse_frames(options.frames, Location{"--frames", 0, 0});
         check(options, shot.frames.size());
@@ -99,13 +99,13 @@ int render_shot(const LaunchEnvironment& launch, const RenderOptions& options) {
             log->warn("{}", warning);
     };
     task.coordinate = [&](Channel& channel, const std::function<bool()>& interrupted) -> CoordinatorEnd {
-        const ShotOutcome outcome = run_shot(
-            channel, shot,
-            {options.command, this_build(), voice.console, voice.loudness, options.overwrite, log, launch.life},
-            interrupted);
+        const ShotOutcome outcome = run_shot(channel, shot,
+                                             {options.command, this_build(), log_output.console, log_output.verbosity,
+                                              options.overwrite, log, launch.life},
+                                             interrupted);
         return {exit_code_of(outcome.state, outcome.missed_target), outcome.lost_peers};
     };
-    return run_on_farm(launch, options.farm, voice, task);
+    return run_on_farm(launch, options.farm, log_output, task);
 }
 
 }  // namespace treefarm

@@ -92,7 +92,7 @@ void go_on_from(std::shared_ptr<LoadedCheckpoint> checkpoint, const fs::path& ru
     for (const std::string& warning : loaded.warnings)
         request.warnings.push_back(warning);
     const std::uint32_t spp = loaded.state.spp();
-    if (!loaded.state.begun && !passes_of(request)(loaded.state.history).pass && has_written(run, request, spp))
+    if (!loaded.state.partial && !passes_of(request)(loaded.state.history).pass && has_written(run, request, spp))
         refuse(run, "is done (" + std::to_string(spp) + " spp)",
                "add samples with --spp N above that, or --seconds or --error beyond what it has");
 }

@@ -11,8 +11,8 @@
 #include "common/guiding/any_guide.h"
 #include "common/guiding/statistics/cell_sums.h"
 #include "common/protocol/messages.h"
-#include "coordinator/begun_pass.h"
 #include "coordinator/ledger.h"
+#include "coordinator/partial_pass.h"
 
 namespace treefarm {
 
@@ -34,10 +34,10 @@ class Collector {
     Verdict take(int worker, Result result, Ledger& ledger);
 
     /// Sets what has come in so far, in a copy of its own: the pass, what is done, layers, sums and figures.
-    void fill(BegunPass& begun) const;
+    void fill(PartialPass& partial) const;
     /// Takes what fill() gave, before anything else. Throws FormatError where it is of another pass or image, and is
     /// then of no use any more.
-    void restore(const BegunPass& begun);
+    void restore(const PartialPass& partial);
 
     /// Pixels for a look at the pass while it goes on; none where they are but a layer of it.
     std::span<const PixelEstimate> pixels_so_far() const;

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "common/film/guiding_worth.h"
+#include "common/film/guiding_efficiency.h"
 #include "common/plan/schedule.h"
 
 namespace treefarm {
@@ -11,7 +11,7 @@ namespace treefarm {
 /// Verdict on guiding after a pass, and the worth that it rests on; zeros where nothing is known.
 struct GuidingVerdict {
     Guiding guiding;
-    GuidingWorth worth;
+    GuidingEfficiency efficiency;
 };
 
 /// What is remembered of a render's passes to decide whether the next ones are guided. Guided passes say what unguided
@@ -20,7 +20,7 @@ class GuidingMemory {
   public:
     /// Verdict after a guided pass that taught.
     GuidingVerdict after_guided(const PassPlan& pass, const GuidingEvidence& evidence);
-    /// Verdict after an unguided pass with such a variance of a sample, as GuidingWorth::unguided_variance; 0: not
+    /// Verdict after an unguided pass with such a variance of a sample, as GuidingEfficiency::unguided_variance; 0: not
     /// known. Where it says nothing new, it is `now`.
     GuidingVerdict after_unguided(const PassPlan& pass, double variance, Guiding now);
 
@@ -33,12 +33,13 @@ class GuidingMemory {
 
   private:
     /// Worth of guiding by a pass that said `own`; adds that to what all have told.
-    GuidingWorth worth_with(const PassPlan& pass, const GuidingEvidence& evidence, const GuidingWorth& own);
+    GuidingEfficiency efficiency_with(const PassPlan& pass, const GuidingEvidence& evidence,
+                                      const GuidingEfficiency& own);
     /// How many times as noisy unguided passes have been as guided ones say; 1 where nobody knows, or where it is the
     /// same but for chance.
     double noisier() const;
 
-    GuidingWorth before_;                 ///< by which guiding was judged last
+    GuidingEfficiency before_;            ///< by which guiding was judged last
     GuidingEvidence told_;                ///< by the guided passes so far
     double unguided_samples_ = 0;         ///< of each pixel
     double unguided_variance_ = 0;        ///< of those samples, by themselves

@@ -18,17 +18,17 @@ namespace treefarm {
 
 /// What becomes of a worker's result.
 enum class Verdict : std::uint8_t {
-    accepted,  ///< the worker has all of these units, and each is still to be done
-    late,      ///< it had them, but of some another worker's copy was quicker
-    lie,       ///< of some it never had, or names one twice
+    accepted,        ///< the worker has all of these units, and each is still to be done
+    late,            ///< it had them, but of some another worker's copy was quicker
+    protocol_error,  ///< of some it never had, or names one twice
 };
 
 /// A unit over which workers were lost.
-struct DeadlyUnit {
+struct PoisonUnit {
     WorkUnit unit;
     std::uint32_t deaths = 0;
 
-    bool operator==(const DeadlyUnit&) const = default;
+    bool operator==(const PoisonUnit&) const = default;
 };
 
 /// How much of a pass a worker gets at once.
@@ -48,7 +48,7 @@ class Ledger {
     /// The units of a pass, tiles of `tile_size` pixels, but for what is `done` and, of an earlier life of the render,
     /// those that are `deadly`: none of these is done, and each is issued as it is.
     Ledger(const PassPlan& plan, int width, int height, int tile_size, const DoneWork& done = {},
-           std::span<const DeadlyUnit> deadly = {});
+           std::span<const PoisonUnit> poison_units = {});
 
     /// Takes a portion for a worker. A unit of more paths than a piece may have is issued in pieces (halve), but in
     /// none so small that to ask for it takes longer than to trace it. A unit over which a worker was lost is issued
@@ -81,10 +81,10 @@ class Ledger {
     /// The worker is back: no unit was its death.
     void forgive(int worker);
     /// The unit over which most workers were lost, and how many; none: 0.
-    std::pair<WorkUnit, std::size_t> deadliest() const;
+    std::pair<WorkUnit, std::size_t> worst_poison_unit() const;
     /// All units over which workers were lost, for a checkpoint. One that would end the render does so in its next life
     /// at the next death.
-    std::vector<DeadlyUnit> deadly() const;
+    std::vector<PoisonUnit> poison_units() const;
 
     bool complete() const { return done_ == total_; }
     std::size_t waiting() const { return waiting_.size(); }

@@ -8,7 +8,7 @@
 
 #include "common/film/combine.h"
 #include "common/film/error_estimate.h"
-#include "common/film/guiding_worth.h"
+#include "common/film/guiding_efficiency.h"
 #include "common/film/trace_stats.h"
 #include "common/guiding/any_guide.h"
 #include "common/plan/forecast.h"
@@ -60,20 +60,20 @@ struct PassReport {
     PassSeconds seconds;
     TraceStats stats;
     PassVariance variance;
-    ErrorEstimate error;                  ///< of the image with this pass
-    GuidingWorth guiding_worth;           ///< by which guiding is judged after this pass
-    Guiding guiding = Guiding::open;      ///< what is known with this pass
-    SplittingGain splitting_gain;         ///< of a guided pass that taught and may split
-    bool splitting = true;                ///< whether it may pay, with this pass
-    LightSubpathGain light_subpath_gain;  ///< of a pass that compared
-    bool light_subpaths = true;           ///< whether they may pay, with this pass
-    std::uint64_t emitters = 0;           ///< that light paths may start from, where passes learn how often
-    std::uint64_t emitters_of_half = 0;   ///< of which the fewest started half of this pass's light paths
-    NextEventPrice price;                 ///< of a pass just finished: next event is decided by it
-    double run_seconds = 0;               ///< since the first worker asked for work, with this pass
-    ErrorForecast halving;                ///< until the error is half of this
-    ErrorForecast target;                 ///< until it is budget.error; its relative_error is 0 where there is none
-    TreeFigures tree;                     ///< that guided the pass
+    ErrorEstimate error;                   ///< of the image with this pass
+    GuidingEfficiency guiding_efficiency;  ///< by which guiding is judged after this pass
+    Guiding guiding = Guiding::open;       ///< what is known with this pass
+    SplittingGain splitting_gain;          ///< of a guided pass that taught and may split
+    bool splitting = true;                 ///< whether it may pay, with this pass
+    LightSubpathGain light_subpath_gain;   ///< of a pass that compared
+    bool light_subpaths = true;            ///< whether they may pay, with this pass
+    std::uint64_t emitters = 0;            ///< that light paths may start from, where passes learn how often
+    std::uint64_t emitters_of_half = 0;    ///< of which the fewest started half of this pass's light paths
+    NextEventPrice price;                  ///< of a pass just finished: next event is decided by it
+    double run_seconds = 0;                ///< since the first worker asked for work, with this pass
+    ErrorForecast halving;                 ///< until the error is half of this
+    ErrorForecast target;                  ///< until it is budget.error; its relative_error is 0 where there is none
+    TreeFigures tree;                      ///< that guided the pass
     std::uint64_t update_bytes = 0, touched_cells = 0;
     UpdateCaps caps;
     SplatCaps splat_caps;

@@ -10,7 +10,7 @@ namespace treefarm {
 
 /// Runs `work` on a thread of its own while this one, which talks, calls `meanwhile` every few milliseconds. What
 /// either throws leaves this, when the work has ended.
-void run_aside(const std::function<void()>& work, const std::function<void()>& meanwhile);
+void run_in_background(const std::function<void()>& work, const std::function<void()>& meanwhile);
 
 /// The coordinator's sign of life where there is no farm: before it knows what to render, and between two jobs.
 class Pulse {

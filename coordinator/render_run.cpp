@@ -16,7 +16,7 @@
 #include "common/scene/pack/scene_codec.h"
 #include "coordinator/decision_text.h"
 #include "coordinator/display/live_display.h"
-#include "coordinator/guest_door.h"
+#include "coordinator/join_listener.h"
 #include "coordinator/memory_check.h"
 #include "coordinator/pass_text.h"
 #include "coordinator/tail_report.h"
@@ -50,7 +50,7 @@ class RenderRun {
                      {request.command, content_hash(scene_), request.fingerprint, request.plan.approximations,
                       request.scene.film.crop, request.schedule, request.life ? request.life->attempt() : ""},
                      request.plan, {folder_use(request), interrupted, request.resumed.get()}),
-          log_(make_log("treefarm", directory_.log_file(), request.console, request.loudness)),
+          log_(make_log("treefarm", directory_.log_file(), request.console, request.verbosity)),
           progress_(request.console, request.job.budget, request.status_frame),
           display_(request.display_server, "treefarm " + directory_.path().filename().string()),
           farm_(channel, request.plan.job, std::move(scene_), request.fingerprint.hash(), log_, {}, request.turn),
@@ -125,13 +125,13 @@ class RenderRun {
                    size_text(film), budget_text(passes(state.history)), directory_.path().string());
         if (request_.resumed)
             log_->info("{} passes with {} spp are done{}, {} of rendering", state.reports.size(), state.spp(),
-                       state.begun ? ", one is begun" : "",
-                       duration_text(state.begun ? state.begun->run_seconds : state.history.seconds));
+                       state.partial ? ", one is begun" : "",
+                       duration_text(state.partial ? state.partial->run_seconds : state.history.seconds));
         if (request_.resumed && job().farm.checkpoint_seconds == 0)
             log_->warn("no checkpoints (farm.checkpoint_seconds = 0): that of {} spp stays until the render is done",
                        state.spp());
         log_->debug("{} triangles", request_.scene.triangle_count());
-        door_.emplace(channel_, request_.job.farm, request_.fingerprint.hash(), directory_.path(), log_);
+        join_listener_.emplace(channel_, request_.job.farm, request_.fingerprint.hash(), directory_.path(), log_);
         enter(LifePhase::gather);
         farm_.gather(interrupted_);
         if (request_.resumed) {
@@ -343,7 +343,7 @@ class RenderRun {
     Progress progress_;
     LiveDisplay display_;
     Farm farm_;
-    std::optional<GuestDoor> door_;
+    std::optional<JoinListener> join_listener_;
     bool reported_black_ = false;
     std::size_t pass_count_ = 0;      ///< 0: not known
     const std::uint32_t spp_before_;  ///< of what the render goes on with

@@ -37,9 +37,9 @@ struct RenderRequest {
     std::optional<AnyModel> initial_model;  ///< that guides the first pass; nothing: the guide's first
     std::shared_ptr<LoadedCheckpoint> resumed;  ///< what the render goes on from; its state is taken
     ConsolePtr console = std::make_shared<Console>(TerminalKind{}, false);
-    Loudness loudness = Loudness::normal;  ///< of the log on the console
-    StatusFrame status_frame;              ///< how the console says how far it is; empty: as render_status does
-    JobTurn turn;                          ///< among the jobs of a study
+    Verbosity verbosity = Verbosity::normal;  ///< of the log on the console
+    StatusFrame status_frame;                 ///< how the console says how far it is; empty: as render_status does
+    JobTurn turn;                             ///< among the jobs of a study
     /// Called after each pass, with the image so far; what it takes counts as the render's time. May be empty.
     std::function<void(const PassReport&, const CombinedImage&)> on_pass;
 };

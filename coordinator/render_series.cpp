@@ -9,7 +9,7 @@ RenderOutcome RenderSeries::render(RenderRequest& request, const std::filesystem
     request.job.output.directory = folder.string();
     request.command = context_.command;
     request.console = context_.console;
-    request.loudness = context_.loudness == Loudness::verbose ? Loudness::verbose : Loudness::quiet;
+    request.verbosity = context_.verbosity == Verbosity::verbose ? Verbosity::verbose : Verbosity::quiet;
     request.life = context_.life;
     ++turn_.number;
     request.turn = turn_;

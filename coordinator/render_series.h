@@ -15,7 +15,7 @@ struct SeriesContext {
     std::string command;  ///< as it was typed
     Fingerprint build;    ///< of this program
     ConsolePtr console;
-    Loudness loudness = Loudness::normal;
+    Verbosity verbosity = Verbosity::normal;
     bool overwrite = false;                      ///< other results that its folder holds
     Log log;                                     ///< on that console
     std::shared_ptr<SignOfLife> life = nullptr;  ///< that a supervisor watches

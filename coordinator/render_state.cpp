@@ -51,7 +51,7 @@ void judge_guiding(RenderState& state, const Resolved& job, std::size_t width, d
                 ? memory.after_guided(pass, guiding_evidence(report.stats.unguided, pixels, levels, width, cost))
                 : memory.after_unguided(pass, mean_variance(pixels, levels, width), verdict);
         verdict = judged.guiding;
-        report.guiding_worth = judged.worth;
+        report.guiding_efficiency = judged.efficiency;
     }
     report.guiding = verdict;
 }
@@ -141,7 +141,7 @@ std::vector<PassPlan> RenderState::plans() const {
     std::vector<PassPlan> plans;
     for (const PassReport& report : reports)
         plans.push_back(report.plan);
-    if (begun) plans.push_back(begun->plan);
+    if (partial) plans.push_back(partial->plan);
     return plans;
 }
 

@@ -11,8 +11,8 @@
 #include "common/guiding/any_guide.h"
 #include "common/guiding/regions/next_event.h"
 #include "common/plan/budget.h"
-#include "coordinator/begun_pass.h"
 #include "coordinator/guiding_memory.h"
+#include "coordinator/partial_pass.h"
 #include "coordinator/pass_report.h"
 
 namespace treefarm {
@@ -29,9 +29,9 @@ struct RenderState {
     std::optional<bool> last_tree;  ///< whether it was refined as the last one; nothing: it is the first
     AnyLearner learner;
     ImageNextEventLearner image_next_event;
-    std::vector<PassReport> reports;  ///< of finished passes
-    std::uint64_t tree_hash = 0;      ///< of the encoded tree that guided the last of them
-    std::optional<BegunPass> begun;   ///< the pass after them, as far as it is, where the state goes on within it
+    std::vector<PassReport> reports;     ///< of finished passes
+    std::uint64_t tree_hash = 0;         ///< of the encoded tree that guided the last of them
+    std::optional<PartialPass> partial;  ///< the pass after them, as far as it is, where the state goes on within it
 
     std::uint32_t spp() const { return history.spp(); }
     /// The passes that are finished, and the one that is begun.

@@ -25,29 +25,29 @@ void WorkerSpeed::beat(double now, std::uint64_t samples, bool busy) {
     if (busy) last_ = Beat{now, samples};
 }
 
-Speeds::Speeds(const std::map<int, Hand>& hands) : hands_(hands) {
+Speeds::Speeds(const std::map<int, WorkerRate>& rates) : rates_(rates) {
     double paths = 0, threads = 0;
-    for (const auto& [worker, hand] : hands_) {
-        if (!hand.speed) continue;
-        paths += *hand.speed;
-        threads += hand.threads;
+    for (const auto& [worker, rate] : rates_) {
+        if (!rate.speed) continue;
+        paths += *rate.speed;
+        threads += rate.threads;
     }
     if (threads > 0) per_thread_ = paths / threads;
-    for (const auto& [worker, hand] : hands_)
+    for (const auto& [worker, rate] : rates_)
         total_ += speed(worker);
 }
 
 /// Paths per second; where nobody's speed is known, threads.
 double Speeds::speed(int worker) const {
-    const auto found = hands_.find(worker);
-    if (found == hands_.end()) return kLeastSpeed;
-    const Hand& hand = found->second;
-    return std::max(hand.speed ? *hand.speed : hand.threads * (per_thread_ > 0 ? per_thread_ : 1.0), kLeastSpeed);
+    const auto found = rates_.find(worker);
+    if (found == rates_.end()) return kLeastSpeed;
+    const WorkerRate& rate = found->second;
+    return std::max(rate.speed ? *rate.speed : rate.threads * (per_thread_ > 0 ? per_thread_ : 1.0), kLeastSpeed);
 }
 
 Portion Speeds::portion(int worker, std::size_t credit, std::uint64_t queued, std::uint64_t waiting) const {
-    const auto found = hands_.find(worker);
-    if (found == hands_.end()) return {};
+    const auto found = rates_.find(worker);
+    if (found == rates_.end()) return {};
     const double mine = speed(worker);
     double paths = kPolicy.farm.part * static_cast<double>(waiting) * mine / std::max(total_, mine);
     if (per_thread_ > 0) paths = std::min(paths, kPolicy.farm.most_seconds * mine);
@@ -59,8 +59,8 @@ Portion Speeds::portion(int worker, std::size_t credit, std::uint64_t queued, st
 
 double Speeds::gain(int here, std::uint64_t paths, int holder, std::uint64_t outstanding) const {
     const auto known = [&](int worker) {
-        const auto found = hands_.find(worker);
-        return found != hands_.end() && found->second.speed.has_value();
+        const auto found = rates_.find(worker);
+        return found != rates_.end() && found->second.speed.has_value();
     };
     if (per_thread_ == 0 && !known(holder)) return 0;
     // Who has done all before his speed was known is quick.

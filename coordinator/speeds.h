@@ -29,7 +29,7 @@ class WorkerSpeed {
 };
 
 /// A worker that work may be handed to.
-struct Hand {
+struct WorkerRate {
     unsigned threads = 1;
     std::optional<double> speed;  ///< paths per second
 };
@@ -37,7 +37,7 @@ struct Hand {
 /// Speeds of workers beside each other, by peer; one without a speed is taken for as fast as others by its threads.
 class Speeds {
   public:
-    explicit Speeds(const std::map<int, Hand>& hands);
+    explicit Speeds(const std::map<int, WorkerRate>& rates);
 
     /// How much a worker gets that asks with `credit` and has `queued` paths to begin, while so many wait: for two
     /// seconds at most, and a quarter of its part of what is left, so that pieces shrink by themselves for the slow and
@@ -51,7 +51,7 @@ class Speeds {
   private:
     double speed(int worker) const;
 
-    std::map<int, Hand> hands_;
+    std::map<int, WorkerRate> rates_;
     double per_thread_ = 0;  ///< paths per second of a thread, of those known; 0: none is
     double total_ = 0;
 };

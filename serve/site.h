@@ -27,7 +27,7 @@ struct SiteResponse {
 };
 
 /// Who is let in.
-struct SiteDoor {
+struct SiteAccess {
     std::string token;        ///< that is demanded; "": none is, but the Host header has to be of this machine
     std::string cookie_name;  ///< under which a browser keeps it
 };
@@ -37,7 +37,7 @@ struct SiteDoor {
 /// cost a render nothing. May be used by several threads.
 class Site {
   public:
-    Site(ConfinedFolder folder, SiteDoor door, std::function<Here()> here = this_place);
+    Site(ConfinedFolder folder, SiteAccess access, std::function<Here()> here = this_host);
 
     SiteResponse respond(const SiteRequest& request);
 
@@ -56,7 +56,7 @@ class Site {
     std::string remembered(const std::string& name, const std::function<std::string()>& make);
 
     const ConfinedFolder folder_;
-    const SiteDoor door_;
+    const SiteAccess access_;
     const std::function<Here()> here_;
     const Timer clock_;
     std::mutex mutex_;

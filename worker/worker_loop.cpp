@@ -14,9 +14,9 @@
 #include "common/config/job_reader.h"
 #include "common/protocol/fingerprint.h"
 #include "common/protocol/messages.h"
-#include "worker/appetite.h"
 #include "worker/silence_watch.h"
 #include "worker/tracer_pool.h"
+#include "worker/work_prefetch.h"
 
 namespace treefarm {
 
@@ -60,7 +60,7 @@ class WorkerLoop {
           log_(log),
           chain_(channel),
           silence_(settings.silence_seconds),
-          appetite_(settings.threads) {}
+          prefetch_(settings.threads) {}
 
     WorkerEnd run() {
         say_hello();
@@ -165,8 +165,8 @@ class WorkerLoop {
     void on(const Work& m) {
         if (!pass_ || m.pass != pass_->plan().index || !pool_) return;  // of a life that was given up
         if (leaving_since_) return;                                     // given back by the good-bye
-        appetite_.receive(m.units.size(), m.units.empty() || m.alone);
-        if (appetite_.nothing_left() && clock_.seconds() - last_update_ > kLeastUpdateSeconds) send_bundle();
+        prefetch_.receive(m.units.size(), m.units.empty() || m.alone);
+        if (prefetch_.nothing_left() && clock_.seconds() - last_update_ > kLeastUpdateSeconds) send_bundle();
         pool_->add(m.units);
     }
 
@@ -312,7 +312,7 @@ class WorkerLoop {
         result_seconds_ = coming_->result_seconds;
         coming_.reset();
         pass_ = std::move(built);
-        appetite_.begin();
+        prefetch_.begin();
         pool_->begin(pass_);
         last_update_ = clock_.seconds();
     }
@@ -320,7 +320,7 @@ class WorkerLoop {
     /// Sends finished units from time to time, and at the end. Without a unit for a moment is not the end: the more
     /// results, the less time has the coordinator to hand out work.
     void send_finished() {
-        const bool at_end = appetite_.nothing_left() && pool_->idle(), enough = pass_->bundle_bytes() >= kBundleBytes;
+        const bool at_end = prefetch_.nothing_left() && pool_->idle(), enough = pass_->bundle_bytes() >= kBundleBytes;
         if (at_end || enough || clock_.seconds() - last_update_ >= result_seconds_) send_bundle();
     }
 
@@ -333,12 +333,12 @@ class WorkerLoop {
     }
 
     bool well_stocked() const {
-        return pass_ && pool_ && appetite_.is_well_stocked(pass_->plan(), job_.farm.tile_size, pool_->queued());
+        return pass_ && pool_ && prefetch_.is_well_stocked(pass_->plan(), job_.farm.tile_size, pool_->queued());
     }
 
     void ask_for_work() {
         const PassPlan& plan = pass_->plan();
-        const auto more = appetite_.ask(plan, job_.farm.tile_size, pool_->queued());
+        const auto more = prefetch_.request(plan, job_.farm.tile_size, pool_->queued());
         if (!more) return;
         const std::uint64_t paths_each = plan.units.tiles ? plan.unit_spp() : 1;
         tell(Want{incarnation_, plan.index, static_cast<std::uint32_t>(*more), paths_each * pool_->queued_weight()});
@@ -387,7 +387,7 @@ class WorkerLoop {
     std::optional<PassBegin> coming_;  ///< announced, its guide not yet built
     std::future<std::shared_ptr<PassWork>> pass_task_;
     std::shared_ptr<PassWork> pass_;
-    Appetite appetite_;
+    Prefetch prefetch_;
 };
 
 }  // namespace

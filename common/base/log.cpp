@@ -80,9 +80,9 @@ class AppendingSink final : public spdlog::sinks::base_sink<std::mutex> {
 
 /// A file sink in a thread of its own: whoever logs answers workers, too, and cannot wait for a disk that hangs. Of
 /// more lines than the queue holds the oldest are lost; the terminal had them.
-class AsideSink final : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
+class BackgroundFileSink final : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
   public:
-    AsideSink(const std::string& who, const std::filesystem::path& file)
+    BackgroundFileSink(const std::string& who, const std::filesystem::path& file)
         : pool_(std::make_shared<spdlog::details::thread_pool>(kLines, 1)),
           logger_(std::make_shared<spdlog::async_logger>(who, std::make_shared<AppendingSink>(file), pool_,
                                                          spdlog::async_overflow_policy::overrun_oldest)) {
@@ -101,19 +101,20 @@ class AsideSink final : public spdlog::sinks::base_sink<spdlog::details::null_mu
     const std::shared_ptr<spdlog::async_logger> logger_;
 };
 
-spdlog::level::level_enum least_level(Loudness loudness) {
-    return loudness == Loudness::quiet    ? spdlog::level::err
-           : loudness == Loudness::normal ? spdlog::level::info
-                                          : spdlog::level::debug;
+spdlog::level::level_enum least_level(Verbosity verbosity) {
+    return verbosity == Verbosity::quiet    ? spdlog::level::err
+           : verbosity == Verbosity::normal ? spdlog::level::info
+                                            : spdlog::level::debug;
 }
 
 }  // namespace
 
-Log make_log(const std::string& who, const std::filesystem::path& file, const ConsolePtr& console, Loudness loudness) {
+Log make_log(const std::string& who, const std::filesystem::path& file, const ConsolePtr& console,
+             Verbosity verbosity) {
     auto terminal = std::make_shared<ConsoleSink>(console);
-    terminal->set_level(least_level(loudness));
+    terminal->set_level(least_level(verbosity));
     std::vector<spdlog::sink_ptr> sinks = {std::move(terminal)};
-    if (!file.empty()) sinks.push_back(std::make_shared<AsideSink>(who, file));
+    if (!file.empty()) sinks.push_back(std::make_shared<BackgroundFileSink>(who, file));
     auto log = std::make_shared<spdlog::logger>(who, sinks.begin(), sinks.end());
     log->set_level(spdlog::level::debug);
     log->flush_on(spdlog::level::info);

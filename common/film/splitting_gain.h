@@ -37,7 +37,7 @@ struct SplittingGain {
     double rays = 0;      ///< of split samples over those of unsplit ones
     /// Mean of the unsplit samples over that of the split ones, which is 1 but for chance. Where it is low unsplit
     /// samples have missed rare light, and nobody knows how noisy they are.
-    double found = 0;
+    double mean_ratio = 0;
 };
 SplittingGain splitting_gain(const TraceStats& stats);
 

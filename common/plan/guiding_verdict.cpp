@@ -20,13 +20,15 @@ double bar(std::uint32_t spp) {
 
 }  // namespace
 
-Guiding judge_guiding(const PassPlan& pass, const GuidingWorth& worth, const GuidingWorth& before, double mistrust) {
+Guiding judge_guiding(const PassPlan& pass, const GuidingEfficiency& efficiency, const GuidingEfficiency& before,
+                      double mistrust) {
     constexpr const auto& kOf = kPolicy.guiding;
-    if (!(worth.worth > 0) || pass.spp < kOf.least_judged_spp || worth.known < kOf.least_known) return Guiding::open;
-    const bool comparable = before.worth > 0 && before.known >= kOf.least_known;
-    const double growth = comparable ? worth.worth / before.worth : 1.0;
-    const double next = worth.worth * std::max(growth, 1.0);
-    const double most = next * mistrust * std::exp(kOf.giving_up_errors * worth.error);
+    if (!(efficiency.efficiency > 0) || pass.spp < kOf.least_judged_spp || efficiency.known < kOf.least_known)
+        return Guiding::open;
+    const bool comparable = before.efficiency > 0 && before.known >= kOf.least_known;
+    const double growth = comparable ? efficiency.efficiency / before.efficiency : 1.0;
+    const double next = efficiency.efficiency * std::max(growth, 1.0);
+    const double most = next * mistrust * std::exp(kOf.giving_up_errors * efficiency.error);
     return most < bar(pass.spp) ? Guiding::loses : Guiding::open;
 }
 

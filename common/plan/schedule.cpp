@@ -59,7 +59,7 @@ void set_splitting(PassPlan& pass, const Resolved& job, bool pays) {
 }
 
 bool splitting_may_pay(const PassPlan& pass, const SplittingGain& gain) {
-    if (pass.spp < kPolicy.splitting.least_spp || gain.variance == 0 || gain.found < kPolicy.splitting.least_found)
+    if (pass.spp < kPolicy.splitting.least_spp || gain.variance == 0 || gain.mean_ratio < kPolicy.splitting.least_found)
         return true;
     if (gain.variance < kPolicy.splitting.least_quietened) return false;
     if (!pass.next_event) return gain.variance >= kPolicy.splitting.least_gain_alone * gain.rays;
@@ -76,7 +76,8 @@ void set_light_subpaths(PassPlan& pass, const Resolved& job, bool pays) {
 
 bool light_subpaths_may_pay(const PassPlan& pass, const LightSubpathGain& gain) {
     if (pass.spp < kPolicy.light_subpaths.least_spp || gain.noise == 0) return true;
-    return gain.found < kPolicy.light_subpaths.least_found || gain.at_equal_cost() >= kPolicy.light_subpaths.least_gain;
+    return gain.mean_ratio < kPolicy.light_subpaths.least_found ||
+           gain.at_equal_cost() >= kPolicy.light_subpaths.least_gain;
 }
 
 PassPlan make_pass(const Resolved& job, std::uint32_t index, std::uint32_t first_sample, std::uint32_t spp, bool last) {

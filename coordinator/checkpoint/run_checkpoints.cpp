@@ -59,7 +59,7 @@ void RunCheckpoints::take_last(RenderState state) {
 
 CheckpointOrigin RunCheckpoints::origin_of(const RenderState& state) const {
     CheckpointOrigin origin = origin_;
-    origin.pixels = state.begun ? state.begun->done.pixel_count() : state.films.front().pixels.size();
+    origin.pixels = state.partial ? state.partial->done.pixel_count() : state.films.front().pixels.size();
     return origin;
 }
 
@@ -70,7 +70,7 @@ std::string RunCheckpoints::finish(bool done) {
         return "";
     }
     if (interval_ == 0) return "";
-    const bool has_all = last_state_ && !last_state_->begun && written_passes_ >= last_state_->reports.size();
+    const bool has_all = last_state_ && !last_state_->partial && written_passes_ >= last_state_->reports.size();
     if (has_all || (!last_state_ && !last_prepared_)) return "";
     std::vector<LastFile> file = {{folder_.string(), [this] {
                                        if (last_state_)

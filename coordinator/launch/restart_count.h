@@ -21,20 +21,20 @@ class RestartCount {
     RestartCount(int fruitless, int all) : most_fruitless_(fruitless), most_(all) {}
 
     /// An attempt has died at a place, "pass 3". Returns whether there may be another one.
-    bool died(const AttemptReach& reach, const std::string& place);
+    bool died(const AttemptReach& reach, const std::string& stage);
 
     /// Seconds until the next attempt: 1, 2, 4, ... 30.
     double pause() const;
     /// Attempts in a row, the last included, that brought nothing after the first of them.
-    int in_a_row() const { return static_cast<int>(places_.size()); }
+    int in_a_row() const { return static_cast<int>(stages_.size()); }
     /// The place where all of them died; "" if they are several.
-    std::string common_place() const;
+    std::string common_stage() const;
 
   private:
     const int most_fruitless_, most_;
     int all_ = 0;
     AttemptReach best_;
-    std::vector<std::string> places_;  ///< of deaths since the last progress
+    std::vector<std::string> stages_;  ///< of deaths since the last progress
 };
 
 }  // namespace treefarm

@@ -38,7 +38,7 @@ struct Sight {
 };
 
 /// What a supervisor has done. Each may throw InputError, which leaves Supervisor::step().
-struct SupervisorHands {
+struct SupervisorActions {
     std::function<void(int)> start;               ///< an attempt, by its number
     std::function<void()> ask_to_stop;            ///< SIGUSR1: write, and leave
     std::function<void(const LifeStatus&)> dump;  ///< SIGABRT to a coordinator that stands still
@@ -59,7 +59,7 @@ struct SupervisorEnd {
 class Supervisor {
   public:
     /// `name` gives an attempt's name by its number.
-    Supervisor(SupervisorLimits limits, SupervisorHands hands, std::function<std::string(int)> name);
+    Supervisor(SupervisorLimits limits, SupervisorActions actions, std::function<std::string(int)> name);
 
     /// A person or a batch system wants an end: first in order, then at once.
     void ask_to_stop();
@@ -81,11 +81,11 @@ class Supervisor {
     void push_stop(double now);
     std::optional<int> code(const Sight& sight) const;
     std::optional<SupervisorEnd> gone(const Sight& sight);
-    std::optional<SupervisorEnd> restart_or_end(const Sight& sight, const std::string& why, const std::string& place);
+    std::optional<SupervisorEnd> restart_or_end(const Sight& sight, const std::string& why, const std::string& stage);
     double stall_limit() const;
 
     const SupervisorLimits limits_;
-    const SupervisorHands hands_;
+    const SupervisorActions actions_;
     const std::function<std::string(int)> name_;
     RestartCount restarts_;
     State state_ = State::waiting;
@@ -97,10 +97,10 @@ class Supervisor {
     std::optional<LifeStatus> own_;                 ///< last sign of life of this attempt
     std::array<double, kLifePhases> longest_ = {};  ///< that each phase was without progress so far
     bool told_unreadable_ = false;
-    std::string why_, place_;  ///< why the attempt is ended by us, and where it was then
+    std::string why_, stage_;  ///< why the attempt is ended by us, and where it was then
 };
 
 /// Words of an attempt's place: "pass 3", "reading the input".
-std::string life_place(const std::optional<LifeStatus>& status);
+std::string life_stage(const std::optional<LifeStatus>& status);
 
 }  // namespace treefarm

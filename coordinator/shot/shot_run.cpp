@@ -134,7 +134,7 @@ class ShotRun {
         bool is_there = false;
         {
             const ReadingNotice notice(context_.console, "frame " + frame_digits(record.frame));
-            run_aside(
+            run_in_background(
                 [&] {
                     request = shot_.read_request(record.frame);
                     is_there = holds_result_of(folder, request);
@@ -199,8 +199,8 @@ class ShotRun {
     }
 
     void tell(const FrameRecord& record) const {
-        log_->info("{}", join_fields({progress_.place(), frame_digits(record.frame), fmt::format("{} spp", record.spp),
-                                      duration_text(record.seconds),
+        log_->info("{}", join_fields({progress_.position(), frame_digits(record.frame),
+                                      fmt::format("{} spp", record.spp), duration_text(record.seconds),
                                       record.error ? fmt::format("error {:.3g} %", 100 * *record.error) : "",
                                       record.state == FrameState::kept ? "kept: it was done before" : "",
                                       record.missed_target ? "above the error asked for" : ""}));

@@ -107,7 +107,7 @@ TEST_F(FarmTest, AWorkerThatWasThoughtLostJoinsAgain) {
     EXPECT_TRUE(orderly_);
 }
 
-TEST_F(FarmTest, ACorruptResultCostsTheWorkerItsPlace) {
+TEST_F(FarmTest, ACorruptResultExcludesTheWorker) {
     make_workers(2);
     first_ = 0;
     std::atomic<bool> sent = false;
@@ -120,7 +120,7 @@ TEST_F(FarmTest, ACorruptResultCostsTheWorkerItsPlace) {
     EXPECT_EQ(lost_, std::set<int>{1});
 }
 
-TEST_F(FarmTest, AResultThatLiesIsRefused) {
+TEST_F(FarmTest, AForgedResultIsRefused) {
     make_workers(2);
     first_ = 0;
     std::atomic<bool> sent = false;

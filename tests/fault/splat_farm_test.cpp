@@ -110,7 +110,7 @@ TEST_F(SplatFarmTest, AKilledWorkersSplatsAreMadeAgainAndNoneCountsTwice) {
     EXPECT_GT(reissued_ + copied_, 0u);
 }
 
-TEST_F(SplatFarmTest, SplatsThatLieAreRefused) {
+TEST_F(SplatFarmTest, ForgedSplatsAreRefused) {
     change_pass_ = only_light_paths;
     const std::uint64_t undisturbed = render_with(1, 1).image_hash;
     channels_.clear();

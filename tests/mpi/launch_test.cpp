@@ -304,7 +304,7 @@ TEST(Launch, ItsProcessesShareASecretWhereTheyAllSeeIt) {
     EXPECT_EQ(hashes_of(other), never_stopped());
 }
 
-TEST(Launch, DeathsAtOnePlaceNameIt) {
+TEST(Launch, DeathsAtOneStageNameIt) {
     const fs::path folder = fresh_folder("run");
     Program begun(plain(folder, kEndless));
     ASSERT_TRUE(begun.wait_until([&] { return passes_done(folder) >= 9; }, kSoon));  // the next one takes seconds

@@ -113,7 +113,7 @@ const RunHashes& one_pass() {
 }
 
 /// Whether one of the checkpoints is of a pass in hand.
-bool has_begun_pass(const fs::path& folder) {
+bool has_partial_pass(const fs::path& folder) {
     for (const char* name : {"a.tfc", "b.tfc"}) {
         std::ifstream file(folder / "checkpoint" / name, std::ios::binary);
         if ((std::stringstream() << file.rdbuf()).str().find("OPEN") != std::string::npos) return true;
@@ -125,7 +125,7 @@ TEST(Resume, AProgramThatIsKilledWithinAPassGoesOnWithinIt) {
     const RunHashes& truth = one_pass();
     const fs::path folder = fresh_folder("run");
     Program program(render(folder, kOnePass));
-    ASSERT_TRUE(program.wait_until([&] { return has_begun_pass(folder); }, kSoon));
+    ASSERT_TRUE(program.wait_until([&] { return has_partial_pass(folder); }, kSoon));
     program.signal(SIGKILL);
     program.wait(kSoon);
     ASSERT_FALSE(fs::exists(folder / "summary.json"));
@@ -139,7 +139,7 @@ TEST(Resume, AProgramThatIsInterruptedWithinItsFirstPassKeepsWhatItHas) {
     const RunHashes& truth = one_pass();
     const fs::path folder = fresh_folder("run");
     Program program(render(folder, kOnePass));
-    ASSERT_TRUE(program.wait_until([&] { return has_begun_pass(folder); }, kSoon));
+    ASSERT_TRUE(program.wait_until([&] { return has_partial_pass(folder); }, kSoon));
     program.signal(SIGINT);
     const Ending ending = program.wait(kSoon);
     EXPECT_EQ(ending.code, 3) << ending.output;

@@ -74,7 +74,7 @@ const std::vector<std::string> kImpure = {"chrono",
 /// A library and the only room that may see it.
 struct Owner {
     std::string header;  ///< how its includes begin
-    std::string room;
+    std::string module;
 };
 const std::vector<Owner> kOwners = {
     {"mpi.h", "common/comm"},      {"mpi-ext.h", "common/comm"}, {"embree3/", "worker/geometry"},
@@ -94,10 +94,10 @@ bool starts_with(const std::string& text, const std::string& start) {
 }
 
 /// The room that a path from the root lies in; nothing for other files.
-std::optional<std::string> room_of(const std::string& path) {
+std::optional<std::string> module_of(const std::string& path) {
     std::optional<std::string> best;
-    for (const auto& [room, level] : kLevels)
-        if (starts_with(path, room + "/") && (!best || room.size() > best->size())) best = room;
+    for (const auto& [module, level] : kLevels)
+        if (starts_with(path, module + "/") && (!best || module.size() > best->size())) best = module;
     return best;
 }
 
@@ -131,52 +131,52 @@ bool is_leaf(const std::string& path) {
 
 /// The folder of one estimator that a path lies in; none for what several share.
 std::string estimator_of(const std::string& path) {
-    const std::string room = "worker/integrators/";
-    const std::size_t end = path.find('/', room.size());
-    if (!starts_with(path, room) || end == std::string::npos) return "";
-    const std::string folder = path.substr(room.size(), end - room.size());
+    const std::string module = "worker/integrators/";
+    const std::size_t end = path.find('/', module.size());
+    if (!starts_with(path, module) || end == std::string::npos) return "";
+    const std::string folder = path.substr(module.size(), end - module.size());
     return folder == "subpath" ? "" : folder;
 }
 
 /// The folder of one guide that a path lies in; none for what they share.
 std::string guide_of(const std::string& path) {
-    const std::string room = "common/guiding/";
-    const std::size_t end = path.find('/', room.size());
-    if (!starts_with(path, room) || end == std::string::npos) return "";
-    const std::string folder = path.substr(room.size(), end - room.size());
+    const std::string module = "common/guiding/";
+    const std::size_t end = path.find('/', module.size());
+    if (!starts_with(path, module) || end == std::string::npos) return "";
+    const std::string folder = path.substr(module.size(), end - module.size());
     return folder == "regions" || folder == "statistics" ? "" : folder;
 }
 
 /// The fault of one include of one file; empty if it has none.
 std::string violation(const std::string& path, const Include& include) {
-    const auto room = room_of(path);
-    if (!room) return "the file lies in no room of docs/design/architecture.md";
+    const auto module = module_of(path);
+    if (!module) return "the file lies in no room of docs/design/architecture.md";
     if (include.quoted && is_leaf(include.target)) return "";
-    const auto target = room_of(include.target);
+    const auto target = module_of(include.target);
     if (is_leaf(path) && target) return "a leaf includes nothing of ours";
-    if (target && *target != *room) {
-        const bool worker = starts_with(*room, "worker"), to_worker = starts_with(*target, "worker");
-        if ((worker && *target == "coordinator") || (*room == "coordinator" && to_worker))
+    if (target && *target != *module) {
+        const bool worker = starts_with(*module, "worker"), to_worker = starts_with(*target, "worker");
+        if ((worker && *target == "coordinator") || (*module == "coordinator" && to_worker))
             return "coordinator and worker never include each other";
-        if (kLevels.at(*target) >= kLevels.at(*room)) return *room + " must not look at " + *target;
+        if (kLevels.at(*target) >= kLevels.at(*module)) return *module + " must not look at " + *target;
     }
     const std::string from = estimator_of(path), to = estimator_of(include.target);
     if (!from.empty() && !to.empty() && from != to) return "integrators never include each other";
     const std::string guide = guide_of(include.target);
-    if (!guide.empty() && (starts_with(path, "worker/integrators/") || *room == "coordinator" || *room == "cli"))
+    if (!guide.empty() && (starts_with(path, "worker/integrators/") || *module == "coordinator" || *module == "cli"))
         return "integrators, coordinator and commands know guides by common/guiding/any_guide.h alone";
-    if (!guide.empty() && *room == "common/guiding" && guide != guide_of(path) && path != "common/guiding/guides.h")
+    if (!guide.empty() && *module == "common/guiding" && guide != guide_of(path) && path != "common/guiding/guides.h")
         return "guides never include each other, nor does what they share";
     if (include.quoted && !target) return "a quoted include must be a full path from the root into a room";
     if (!include.quoted && target) return "our own headers are included in quotes";
     // Benchmarks hold a library, used as it is, against our use of it.
     for (const Owner& owner : kOwners)
-        if (starts_with(include.target, owner.header) && *room != owner.room && *room != "bench")
-            return "only " + owner.room + " sees " + owner.header;
-    if (kPure.count(*room) > 0)
+        if (starts_with(include.target, owner.header) && *module != owner.module && *module != "bench")
+            return "only " + owner.module + " sees " + owner.header;
+    if (kPure.count(*module) > 0)
         for (const std::string& impure : kImpure)
             if (include.target == impure || (impure.back() == '/' && starts_with(include.target, impure)))
-                return *room + " is pure: no " + impure;
+                return *module + " is pure: no " + impure;
     return "";
 }
 

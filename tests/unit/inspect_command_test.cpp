@@ -71,8 +71,8 @@ TEST_F(InspectCommand, FindsTheKnownRadianceOfTheFurnace) {
     EXPECT_NEAR(found["places"][0]["reflected"].get<double>(), 1.0, 0.02);
     EXPECT_GT(found["places"][0]["pictures"][0]["overlap"].get<double>(), 0.6) << "a region has more normals than one";
     EXPECT_EQ(found["places"][1]["pictures"].size(), 1u) << "nothing is reflected at a bare point";
-    for (const auto& place : found["places"])
-        for (const auto& picture : place["pictures"]) {
+    for (const auto& point : found["places"])
+        for (const auto& picture : point["pictures"]) {
             EXPECT_EQ(picture["panels"].size(), 2u) << "without next event nothing is left out";
             const Image image = read_ldr(picture["file"].get<std::string>(), Encoding::srgb);
             EXPECT_EQ(image.height, 256);
@@ -129,8 +129,8 @@ TEST_F(InspectCommand, ShowsViewsAndTheFilmWithTheSameBitsForAnyThreads) {
     EXPECT_GT(one["tree"]["views"], 0);
     EXPECT_GT(one["tree"]["t2_share"], 0.0);
     bool has_view = false;
-    for (const auto& place : one["places"])
-        for (const auto& picture : place["pictures"])
+    for (const auto& point : one["places"])
+        for (const auto& picture : point["pictures"])
             has_view |= picture["kind"] == "t2" && fs::exists(picture["file"].get<std::string>());
     EXPECT_TRUE(has_view);
     ASSERT_EQ(one["maps"].size(), 4u);

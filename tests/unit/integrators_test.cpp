@@ -189,9 +189,9 @@ TEST(Techniques, ThatCountLightTwiceAreRefused) {
 
 /// The coordinator plans passes and adds up films, whatever renders them. A study's "reference" is an image.
 TEST(Estimators, TheCoordinatorNamesNone) {
-    const std::filesystem::path room = std::filesystem::path(TREEFARM_SOURCE_DIR) / "coordinator";
+    const std::filesystem::path folder = std::filesystem::path(TREEFARM_SOURCE_DIR) / "coordinator";
     std::size_t files = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(room)) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
         if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
         ++files;
         std::ifstream file(entry.path());
@@ -235,15 +235,15 @@ TEST(Guides, CoordinatorAndIntegratorsNameNone) {
                                          "cells",         "view",  "views", "quadtree", "direction_to_code",
                                          "square_to_code"};
     std::size_t files = 0;
-    for (const std::string room : {"coordinator", "worker/integrators"})
-        for (const auto& entry : std::filesystem::recursive_directory_iterator(root / room)) {
+    for (const std::string folder : {"coordinator", "worker/integrators"})
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
             if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
             ++files;
             std::ifstream file(entry.path());
             const std::string text{std::istreambuf_iterator<char>(file), {}};
             for (const std::string& name : names)
                 EXPECT_EQ(text.find(name), std::string::npos) << entry.path() << " names " << name;
-            if (room != "worker/integrators") continue;
+            if (folder != "worker/integrators") continue;
             for (const std::string& word : identifiers(text))
                 EXPECT_EQ(parts.count(word), 0u) << entry.path() << " names a guide's " << word;
         }

@@ -271,7 +271,7 @@ TEST(Job, TheBsdfFractionIsANumberOrLearned) {
         EXPECT_NE(message_of(std::string("guiding.bsdf_fraction = ") + bad), "no error") << bad;
 }
 
-TEST(Job, BrokenTomlHasAPlace) {
+TEST(Job, BrokenTomlHasALocation) {
     EXPECT_EQ(message_of("[budget]\nspp = = 3\n").substr(0, 13), "job.toml:2:7:");
     EXPECT_NE(message_of("[budget]\nspp = 3\nspp = 4\n").find("job.toml:3:"), std::string::npos);
     EXPECT_EQ(message_of("[budget]\nspp = = 3\n").find('\n'), std::string::npos);

@@ -46,7 +46,7 @@ TEST(Printable, KeepsTextAndReplacesWhatSteersTerminals) {
 TEST(Log, ALineIsALine) {
     const fs::path file = fs::path(testing::TempDir()) / "log_test.txt";
     fs::remove(file);
-    Log log = make_log("treefarm", file, silent(), Loudness::quiet);
+    Log log = make_log("treefarm", file, silent(), Verbosity::quiet);
     log->info("results in {}", "runs/a\n2026-01-01 treefarm error: forged\x1b[2J");
     log.reset();  // all is written then
     const std::string text = read(file);
@@ -58,7 +58,7 @@ TEST(Log, ALineIsALine) {
 TEST(Log, GoesOnInAFileThatWasRemoved) {
     const fs::path folder = fs::path(testing::TempDir()) / "log_test_folder", file = folder / "log.txt";
     fs::create_directories(folder);
-    Log log = make_log("treefarm", file, silent(), Loudness::quiet);
+    Log log = make_log("treefarm", file, silent(), Verbosity::quiet);
     log->info("one");
     while (read(file).find("one") == std::string::npos)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -76,7 +76,7 @@ TEST(Log, DoesNotWaitForADiskThatHangs) {
     fs::remove(pipe);
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
     std::signal(SIGPIPE, SIG_IGN);  // as the program does: a reader may have left
-    Log log = make_log("treefarm", pipe, silent(), Loudness::quiet);
+    Log log = make_log("treefarm", pipe, silent(), Verbosity::quiet);
     std::future<void> said = std::async(std::launch::async, [&] {
         for (int i = 0; i < 10000; ++i)
             log->info("line {}", i);

@@ -78,7 +78,7 @@ TEST_F(Obj, WindowsLineEndsAndMissingLastLineEnd) {
     EXPECT_EQ(read("v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3").corners.size(), 3u);
 }
 
-TEST_F(Obj, ErrorsHaveTheirPlace) {
+TEST_F(Obj, ErrorsHaveTheirLocation) {
     EXPECT_EQ(message_of("v 0 0 0\nv 1 zero 0\n"), ":2:5: \"zero\" is not a number; write a finite decimal number");
     EXPECT_EQ(message_of("v 0 0 nan\n").substr(0, 7), ":1:7: \"");
     EXPECT_EQ(message_of("v 0 0 1e39\n").substr(0, 7), ":1:7: \"");

@@ -192,7 +192,7 @@ TEST(Ply, HeaderErrorsHaveTheirLine) {
                    "m.ply:3:1: the vertices have no x, y and z");
 }
 
-TEST(Ply, TextErrorsHaveTheirPlace) {
+TEST(Ply, TextErrorsHaveTheirLocation) {
     const std::string header = kVertices + kFaces;  // the data begin in line 10
     EXPECT_EQ(message_of(ascii(header, "0 0 0\n1 zero 0\n1 1 0\n0 1 0\n3 0 1 2\n")),
               "m.ply:11:3: \"zero\" is not a number; write a finite decimal number");

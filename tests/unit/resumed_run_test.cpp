@@ -61,7 +61,7 @@ class Folders : public ::testing::Test {
         request.scene = test::cornell_box(1.0f, Vec3(0.0f));
         test::set_film(request.scene, 8, 8);
         request.plan = plan_effects(request.scene, request.job);
-        request.loudness = Loudness::quiet;
+        request.verbosity = Verbosity::quiet;
         return request;
     }
 
@@ -144,7 +144,7 @@ class ShotIndex : public Folders {
         const auto log =
             std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(told_));
         const SeriesContext context{"treefarm render", {},    std::make_shared<Console>(TerminalKind{}, false),
-                                    Loudness::quiet,   false, log};
+                                    Verbosity::quiet,  false, log};
         return on_farm([&](Channel& channel) { return run_shot(channel, shot, context, [] { return false; }); }).state;
     }
 

@@ -10,7 +10,7 @@ namespace {
 
 using test::LaunchWorld;
 
-TEST(Supervisor, PausesGrowAndDeathsAtOnePlaceEndItAndNameIt) {
+TEST(Supervisor, PausesGrowAndDeathsAtOneStageEndItAndNameIt) {
     LaunchWorld world;
     while (!world.end) {
         world.run_to_pass(7);
@@ -28,7 +28,7 @@ TEST(Supervisor, PausesGrowAndDeathsAtOnePlaceEndItAndNameIt) {
     EXPECT_GE(at[5] - at[4], 16);
 }
 
-TEST(Supervisor, DeathsAtSeveralPlacesNameTheLast) {
+TEST(Supervisor, DeathsAtSeveralStagesNameTheLast) {
     LaunchWorld world({.restarts = 1});
     world.run_to_pass(3);
     world.die();

@@ -98,7 +98,7 @@ class Emitters {
     /// `place` chooses where it starts, as the numbers of sample_direct() do, or the direction that it comes from if
     /// that is from infinity; direction[0] and [1] its direction, or the place across that one. A scene without
     /// surfaces gets none.
-    EmissionSample emit(const Draw& place, const Draw& direction, const EmissionChoice* choice = nullptr) const;
+    EmissionSample emit(const Draw& position, const Draw& direction, const EmissionChoice* choice = nullptr) const;
     /// Densities with which emit() starts at a point of an area emitter into the unit direction `away`; zeros where
     /// nothing shines.
     EmissionDensity emission_density(const Hit& start, const Vec3& away, const EmissionChoice* choice = nullptr) const;
@@ -159,11 +159,11 @@ class Emitters {
     std::uint32_t entry_of(std::uint32_t light, const Hit& hit) const {
         return light_of_entry_.empty() ? light : first_entry_[light] + area_lights_[light].patch_of(hit);
     }
-    EmissionSample emit_by(const EmissionChoice& choice, const Draw& place, const Draw& direction) const;
-    EmissionSample emit_from_area(const AreaLight& light, float selection, const Draw& place,
+    EmissionSample emit_by(const EmissionChoice& choice, const Draw& position, const Draw& direction) const;
+    EmissionSample emit_from_area(const AreaLight& light, float selection, const Draw& position,
                                   const Draw& direction) const;
     EmissionSample emit_from_point(std::size_t index, float selection, const Draw& direction) const;
-    EmissionSample emit_from_infinity(std::uint32_t entry, const Draw& place, const Draw& direction,
+    EmissionSample emit_from_infinity(std::uint32_t entry, const Draw& position, const Draw& direction,
                                       const EmissionChoice& choice) const;
     EmissionProbabilities emission_probabilities(const EmissionChoice* choice) const {
         return {choice, area_entries_ - static_cast<std::uint32_t>(area_lights_.size())};

@@ -59,7 +59,7 @@ class LightTree {
     }
 
     /// Probabilities along a way down: to the cluster, and from there on.
-    struct Way {
+    struct Descent {
         float above = 1.0f, below = 1.0f;
         std::uint8_t cluster = kNoCluster;
 
@@ -72,18 +72,18 @@ class LightTree {
             }
         }
     };
-    LightPick completed(std::uint32_t entry, const Way& way, const LightProbabilities* learned) const;
+    LightPick completed(std::uint32_t entry, const Descent& descent, const LightProbabilities* learned) const;
 
     /// The entry that random bits find below a node, or LightPick::kNone; adds the steps to `way`.
     std::uint32_t descend(std::uint32_t node, std::uint64_t bits, const Vec3& p, const LightReceiver& receiver,
-                          Way& way) const;
+                          Descent& descent) const;
     std::uint32_t pick_learned(std::uint64_t bits, std::uint32_t share, const Vec3& p,
                                const LightReceiver& receiver) const;
 
     LightSpace space_;
     std::vector<LightLanes> nodes_;
     std::vector<Link> links_;
-    std::vector<std::uint32_t> place_;           ///< of an entry: its lane, or kNowhere
+    std::vector<std::uint32_t> lane_of_entry_;   ///< of an entry: its lane, or kNowhere
     std::vector<std::uint32_t> heads_;           ///< lane that a cluster begins with
     std::array<float, kLightClusters> fixed_{};  ///< share of a cluster among draws without an estimate
     DiscreteTable shares_;                       ///< draws without an estimate

@@ -38,7 +38,7 @@ void LightTreeBuilder::build(std::span<const double> shares) {
     }
     least_area_ = least_area(box);
     nodes_.reserve(2 * (near.size() + far.size()));
-    tree_.place_.assign(bounds_.size(), LightTree::kNowhere);
+    tree_.lane_of_entry_.assign(bounds_.size(), LightTree::kNowhere);
     std::vector<std::uint32_t> root;
     if (!far.empty()) {
         root.push_back(binary(far, 0));
@@ -185,7 +185,7 @@ std::uint32_t LightTreeBuilder::wide(std::vector<std::uint32_t> children, std::u
         tree_.space_.set(tree_.nodes_[index], static_cast<int>(i), node.bounds);
         if (node.leaf) {
             tree_.nodes_[index].child[i] = LightLanes::kLeaf | node.left;
-            tree_.place_[node.left] = lane;
+            tree_.lane_of_entry_[node.left] = lane;
             continue;
         }
         // What is at infinity comes apart first: there a sun stands beside a sky.

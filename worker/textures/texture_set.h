@@ -27,7 +27,7 @@ struct TexturePoint {
 
 /// Where a texture finds the attribute that it is made of.
 struct AttributeSlot {
-    std::uint32_t place = 0;  ///< in Mesh::attributes
+    std::uint32_t index = 0;  ///< in Mesh::attributes
     bool of_faces = false;
 };
 

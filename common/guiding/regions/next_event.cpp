@@ -75,7 +75,7 @@ class Pooling {
     Pooling(const RegionModel& tree, std::span<const NextEventEvidence> evidence)
         : tree_(tree), evidence_(evidence), sums_(tree.nodes.size()), pooled_(evidence.size()) {
         add_up(0);
-        if (const double vertices = sums_[0][kNextEventAsked]; vertices > 0) hand_down(0, means_of(sums_[0], vertices));
+        if (const double vertices = sums_[0][kNextEventAsked]; vertices > 0) propagate(0, means_of(sums_[0], vertices));
     }
     std::vector<NextEventEvidence> take() { return std::move(pooled_); }
 
@@ -100,7 +100,7 @@ class Pooling {
     }
 
     /// `about`: means of the cube that the node's is a half of; of the root its own.
-    void hand_down(std::uint32_t node, const VertexMeans& about) {
+    void propagate(std::uint32_t node, const VertexMeans& about) {
         const double lent = kPolicyOf.lent_vertices;
         const double own = sums_[node][kNextEventAsked];
         VertexMeans means = about;
@@ -111,7 +111,7 @@ class Pooling {
         const RegionModel::Node& n = tree_.nodes[node];
         if (!n.is_leaf()) {
             for (const std::uint32_t child : n.child)
-                hand_down(child, means);
+                propagate(child, means);
             return;
         }
         NextEventEvidence& region = pooled_[n.child[1]];

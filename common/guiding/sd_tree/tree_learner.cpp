@@ -13,7 +13,7 @@ SdTree TreeLearner::learn(const SdTree& tree, const CellSums& sums, const Refine
     if (tree.decides_next_event()) next_event_.learn(tree, sums, settings, report, next);
     if (!learn_mixture) return next;
     mixture_.learn(tree, sums, report.origins, next);
-    if (learn_views) views_.hand_down(report.view_origins, next);
+    if (learn_views) views_.set_fractions(report.view_origins, next);
     return next;
 }
 

@@ -68,7 +68,7 @@ std::vector<ViewAdvice> ViewLearner::judge(const SdTree& tree, const CellSums& s
     return advice;
 }
 
-void ViewLearner::hand_down(std::span<const ViewOrigin> origins, SdTree& next) {
+void ViewLearner::set_fractions(std::span<const ViewOrigin> origins, SdTree& next) {
     std::vector<Evidence> inherited;
     inherited.reserve(origins.size());
     for (std::size_t v = 0; v < origins.size(); ++v) {

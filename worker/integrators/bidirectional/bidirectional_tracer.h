@@ -179,16 +179,16 @@ class BidirectionalTracer {
                                                                        rules_.delta_alone, &choice_);
         // Densities of the place and of what is drawn from there, in the measures of next event's and per area.
         // Where only lights without extent are sampled, both ends are taken to choose them alike.
-        double place = rules_.delta_alone ? 1.0 : double(pdf.position) / double(light.pdf);
+        double position = rules_.delta_alone ? 1.0 : double(pdf.position) / double(light.pdf);
         double next = double(pdf.direction) * double(geometric_cosine(z.hit, light.wi));
         if (!light.at_infinity()) {
             const double distance2 = squared_distance(z.hit.p, light.on_light.p);
             next /= distance2;
             const auto cosine = double(geometric_cosine(light.on_light, light.wi));
             // 0 on a sphere's rim, by rounding: no light path leaves along its surface.
-            if (!light.delta) place = cosine > 0.0 ? place * (distance2 / cosine) : 0.0;
+            if (!light.delta) position = cosine > 0.0 ? position * (distance2 / cosine) : 0.0;
         }
-        return z.sums.sum(place * next, place * next * reverse(z, light.wi), rules_.heuristic);
+        return z.sums.sum(position * next, position * next * reverse(z, light.wi), rules_.heuristic);
     }
 
     /// (s, t): a vertex of the light path sends its light to one of the camera's.

@@ -16,10 +16,10 @@ namespace treefarm {
 /// noisy or less, and a faint one does not cost a whole path.
 class GlassSplits {
   public:
-    GlassSplits() { ways_.reserve(kDrawBatch); }
+    GlassSplits() { branches_.reserve(kDrawBatch); }
 
-    std::uint32_t size() const { return static_cast<std::uint32_t>(ways_.size()); }
-    void clear() { ways_.clear(); }
+    std::uint32_t size() const { return static_cast<std::uint32_t>(branches_.size()); }
+    void clear() { branches_.clear(); }
 
     /// Chance with which a way of this probability is followed, never so small that its weight overflows, or that 24
     /// random bits do not tell.
@@ -32,7 +32,7 @@ class GlassSplits {
     template <class Path>
     void split(Path& path, bool strict_normals) {
         const auto& surface = *path.surface;
-        const BsdfSample other = surface.bsdf().other_way(surface.wo(), path.scatter.local);
+        const BsdfSample other = surface.bsdf().other_branch(surface.wo(), path.scatter.local);
         if (!(other.pdf > 0.0f)) return;
         auto lesser = path.scatter;
         lesser.local = other.wi;
@@ -45,22 +45,22 @@ class GlassSplits {
         if (is_black(lesser.f_cos) || (strict_normals && dot(surface.ng(), lesser.world) * lesser.local.z <= 0.0f) ||
             !(to_unit(draw(path.key, path.vertex, Stream::glass_split)[0]) < lesser.effective_pdf))
             return;
-        ways_.push_back({path.origin,
-                         {offset_origin(path.hit, lesser.world), lesser.world},
-                         lesser.f_cos * (1.0f / lesser.effective_pdf),
-                         lesser.local.z < 0.0f ? surface.eta2() : 1.0f});
+        branches_.push_back({path.origin,
+                             {offset_origin(path.hit, lesser.world), lesser.world},
+                             lesser.f_cos * (1.0f / lesser.effective_pdf),
+                             lesser.local.z < 0.0f ? surface.eta2() : 1.0f});
     }
 
-    struct OtherWay {
+    struct OtherBranch {
         std::uint16_t origin;  ///< the camera path that it is part of
         Ray ray;
         Rgb weight;    ///< f |cos| over the probability of being followed
         float spread;  ///< eta^2 where it is refracted
     };
-    const OtherWay& operator[](std::uint32_t i) const { return ways_[i]; }
+    const OtherBranch& operator[](std::uint32_t i) const { return branches_[i]; }
 
   private:
-    std::vector<OtherWay> ways_;  ///< at most one of each camera path
+    std::vector<OtherBranch> branches_;  ///< at most one of each camera path
 };
 
 }  // namespace treefarm

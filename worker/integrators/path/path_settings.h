@@ -21,14 +21,14 @@ inline bool counts_next_event(const Resolved& job, const PassPlan& pass, const R
 /// Settings of the walk besides the scene: fixed for a pass.
 struct PathSettings {
     int max_depth;
-    bool next_event;         ///< a flag, not a kernel of its own: one predictable branch per vertex
-    bool delta_alone;        ///< no next event, but for the lights that nothing else finds
-    float light_samples;     ///< at each vertex; 0: as the guide says
-    bool thin_next_event;    ///< some vertices have fewer light samples than one
-    bool few_light_samples;  ///< so few that vertices which have one draw its numbers alone
-    bool count_next_event;   ///< for whoever decides how many
-    bool twin;               ///< guided paths tell what unguided ones would be like
-    bool delta_lights;       ///< among others: they are sampled always
+    bool next_event;          ///< a flag, not a kernel of its own: one predictable branch per vertex
+    bool delta_alone;         ///< no next event, but for the lights that nothing else finds
+    float light_samples;      ///< at each vertex; 0: as the guide says
+    bool thin_next_event;     ///< some vertices have fewer light samples than one
+    bool few_light_samples;   ///< so few that vertices which have one draw its numbers alone
+    bool count_next_event;    ///< for whoever decides how many
+    bool estimates_unguided;  ///< guided paths tell what unguided ones would be like
+    bool delta_lights;        ///< among others: they are sampled always
     MisHeuristic mis;
     bool strict_normals;
     bool hide_emitters;
@@ -62,8 +62,8 @@ struct PathSettings {
           few_light_samples(thin_next_event && !by_region(pass) && !scene.emitters().has_delta_lights() &&
                             (light_samples > 0.0f ? light_samples : guide.image_next_event()) < kFew),
           count_next_event(next_event && counts_next_event(job, pass, guide)),
-          twin(pass.guided && pass.record && guide.trained() && guide.knows_image() &&
-               job.guiding.rule == Rule::while_it_pays),
+          estimates_unguided(pass.guided && pass.record && guide.trained() && guide.knows_image() &&
+                             job.guiding.rule == Rule::while_it_pays),
           delta_lights(scene.emitters().has_delta_lights()),
           mis(job.integrator.mis),
           strict_normals(job.integrator.strict_normals),

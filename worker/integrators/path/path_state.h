@@ -7,7 +7,7 @@
 #include "worker/geometry/embree_scene.h"
 #include "worker/integrators/path/scatter_sample.h"
 #include "worker/integrators/path/split_paths.h"
-#include "worker/integrators/path/unguided_twin.h"
+#include "worker/integrators/path/unguided_estimate.h"
 #include "worker/lights/light_lanes.h"
 
 namespace treefarm {
@@ -26,7 +26,7 @@ struct PathState {
     std::uint32_t scatter_region;  ///< of that vertex
     float inverse_level;           ///< one over the light about the pixel; 0: not known
     float scatter_bsdf_pdf;        ///< that scattering would have had unguided; infinite after a delta lobe
-    UnguidedTwin twin;             ///< where PathSettings::twin asks for it
+    UnguidedEstimate unguided;     ///< where PathSettings::twin asks for it
     LightReceiver scatter_from;    ///< the place, as next event chose an emitter there
     LightWidthStore scatter_widths;  ///< of scatter_from
     int first_exponent;              ///< of the quanta where the camera's ray arrived: how bright it is there
@@ -62,7 +62,7 @@ struct PathState {
         scatter_pdf = 0.0f;
         scatter_light_samples = 1.0f;
         scatter_bsdf_pdf = 0.0f;
-        twin = {};
+        unguided = {};
         scatter_region = 0;
         light_samples = 1.0f;
         samples_emitters = true;
@@ -82,14 +82,14 @@ struct PathState {
     }
 
     /// Follows the direction that was drawn with its densities, guided and not. Ways out of glass are the same of both.
-    void follow_twin() {
-        if (!scatter.delta || scatter.effective_pdf == scatter.pdf) twin.step(scatter.pdf, scatter.bsdf_pdf);
+    void follow_unguided() {
+        if (!scatter.delta || scatter.effective_pdf == scatter.pdf) unguided.step(scatter.pdf, scatter.bsdf_pdf);
         scatter_bsdf_pdf = scatter.delta ? std::numeric_limits<float>::infinity() : scatter.bsdf_pdf;
     }
 
     /// One of the paths that this path goes on as, from where its ray has arrived.
     SplitPath split_off() const {
-        return {origin, split_budget, depth, ray, embree_hit, throughput, spread, first_exponent, twin.split_off()};
+        return {origin, split_budget, depth, ray, embree_hit, throughput, spread, first_exponent, unguided.split_off()};
     }
 
     /// Goes on as several, of which it is one, and leaves the others; returns how many they are.
@@ -97,7 +97,7 @@ struct PathState {
         paths = split_budget.split(paths);
         unsplit.split(paths, luminance(radiance));
         throughput *= 1.0f / static_cast<float>(paths);
-        twin.split(static_cast<float>(paths));
+        unguided.split(static_cast<float>(paths));
         for (std::uint32_t i = 1; i < paths; ++i)
             others.leave(split_off());
         return paths;
@@ -114,7 +114,7 @@ struct PathState {
         origin = split.origin;
         split_budget = split.split_budget;
         was_split_off = true;
-        twin = split.twin;
+        unguided = split.unguided;
         found = true;
         embree_hit = split.embree_hit;
     }

@@ -42,7 +42,7 @@ SeenLight see_light(const PendingLight<G>& light, const typename G::Direction& d
 
 /// Luminance that it brings to the pixel of the path that is guided, weighted as the unguided one would weigh it.
 template <class G>
-float twin_light(const PendingLight<G>& light, const SeenLight& seen, const PathSettings& settings) {
+float unguided_light(const PendingLight<G>& light, const SeenLight& seen, const PathSettings& settings) {
     const float weight = mis_weight(settings.mis, seen.light_pdf, light.delta ? 0.0f : light.bsdf_pdf);
     return luminance(light.from.throughput * (light.f_cos * light.radiance)) * (weight / seen.light_pdf);
 }

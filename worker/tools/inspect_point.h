@@ -12,7 +12,7 @@
 namespace treefarm {
 
 /// A point where one looks at what the tree has learned: of a surface as a pixel sees it, or anywhere in the scene.
-struct InspectedPlace {
+struct InspectedPoint {
     Hit hit;        ///< of a bare point: `p`, and the normals if they are known
     Vec3 outgoing;  ///< unit, to where light goes; of a surface alone
     bool surface = false;
@@ -20,7 +20,7 @@ struct InspectedPlace {
 };
 
 /// The guide at a place, in figures.
-struct PlaceGuidance {
+struct PointGuidance {
     static constexpr std::uint32_t kNoView = 0xffffffffu;
     std::uint32_t region = 0;
     std::uint32_t view = kNoView;  ///< the distribution of the view there
@@ -30,8 +30,8 @@ struct PlaceGuidance {
 };
 
 /// What the tree uses at a place, and whether the material gives it anything to do.
-struct PlaceFacts {
-    PlaceGuidance guidance;       ///< fractions as the walk uses them; of a bare point: of its region, without view
+struct PointFacts {
+    PointGuidance guidance;       ///< fractions as the walk uses them; of a bare point: of its region, without view
     bool inside = true;           ///< the tree's cube
     bool black = false;           ///< the surface reflects nothing to there
     bool smooth = true;           ///< it has a lobe that a tree can learn about
@@ -39,9 +39,9 @@ struct PlaceFacts {
 };
 
 /// The place that the centre of a pixel sees (through the centre of a lens); nothing if it sees no surface.
-std::optional<InspectedPlace> seen_point(const TraceScene& scene, int x, int y);
+std::optional<InspectedPoint> seen_point(const TraceScene& scene, int x, int y);
 
-PlaceFacts place_facts(const TraceScene& scene, const AnySampler& guide, const InspectedPlace& place);
+PointFacts point_facts(const TraceScene& scene, const AnySampler& guide, const InspectedPoint& point);
 
 /// How the truth is found: by path tracing from the place, with next event, without guides.
 struct BruteForce {
@@ -54,7 +54,7 @@ struct BruteForce {
 /// Averages over the squares of the direction square, in row order from v = 0. Radiance is the mean of its channels, as
 /// the tree records it; directions in which the surface reflects nothing (or below the normal) are 0. What is `left` is
 /// what next event leaves to scattering: emission that is met directly counts by its MIS weight.
-struct PlaceTruth {
+struct PointTruth {
     std::vector<float> radiance;        ///< incident: all of it
     std::vector<float> left;            ///< of it; empty if next event took no part
     std::vector<float> reflected;       ///< f |cos| times incident radiance; empty without a surface
@@ -63,7 +63,7 @@ struct PlaceTruth {
 };
 
 /// Traces what a place scatters and receives. Pure but for its time: the same numbers for any number of threads.
-PlaceTruth trace_place(const TraceScene& scene, const Resolved& job, const AnySampler& guide,
-                       const InspectedPlace& place, const BruteForce& settings);
+PointTruth trace_point(const TraceScene& scene, const Resolved& job, const AnySampler& guide,
+                       const InspectedPoint& point, const BruteForce& settings);
 
 }  // namespace treefarm

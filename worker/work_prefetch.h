@@ -11,29 +11,29 @@ namespace treefarm {
 
 /// How much work a worker asks for: so much that no thread waits while more is under way, and no more, since what it
 /// has others cannot get. Pure bookkeeping.
-class Appetite {
+class Prefetch {
   public:
-    explicit Appetite(std::size_t threads) : threads_(threads) {}
+    explicit Prefetch(std::size_t threads) : threads_(threads) {}
 
     /// A pass begins.
-    void begin() { *this = Appetite(threads_); }
+    void begin() { *this = Prefetch(threads_); }
     /// Units have come, or none, since for now nothing is left.
     void receive(std::size_t units, bool nothing_left) {
         credit_ -= std::min(credit_, units);
         nothing_left_ = nothing_left;
-        asked_at_.reset();
+        requested_at_.reset();
     }
 
     /// Units to ask for now, where so many are queued; nothing: better not to ask. None: to say how little is left.
-    std::optional<std::size_t> ask(const PassPlan& plan, int tile_size, std::size_t queued) {
+    std::optional<std::size_t> request(const PassPlan& plan, int tile_size, std::size_t queued) {
         const std::size_t per_thread = kUnitsPerThread + kPathsPerThread / plan.unit_paths(tile_size);
         const std::size_t depth = per_thread * threads_;
         const std::size_t more = depth - std::min(depth, queued + credit_);
         // A coordinator that owes much of it, and sees how little is left here, gives some more.
-        const bool hungry = !nothing_left_ && queued < threads_ && (!asked_at_ || queued < *asked_at_);
+        const bool hungry = !nothing_left_ && queued < threads_ && (!requested_at_ || queued < *requested_at_);
         if (!hungry && (more == 0 || (more < std::max<std::size_t>(1, threads_ / 2) && queued > 0))) return {};
         credit_ += more;
-        asked_at_ = queued;
+        requested_at_ = queued;
         return more;
     }
 
@@ -50,7 +50,7 @@ class Appetite {
     std::size_t threads_;
     std::size_t credit_ = 0;  ///< units asked for that have not come
     std::optional<std::size_t>
-        asked_at_;               ///< units that were queued when more were asked for, and none have come since
+        requested_at_;           ///< units that were queued when more were asked for, and none have come since
     bool nothing_left_ = false;  ///< the last work that came was none
 };
 

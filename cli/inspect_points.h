@@ -5,22 +5,22 @@
 #include <vector>
 
 #include "cli/inspected_run.h"
-#include "worker/tools/inspect_place.h"
+#include "worker/tools/inspect_point.h"
 
 namespace treefarm {
 
 /// A place as a person names it.
-struct NamedPlace {
+struct NamedPoint {
     std::string name;  ///< begins the names of its pictures
     std::string text;  ///< as it was given, for messages
-    InspectedPlace place;
+    InspectedPoint point;
 };
 
 /// "x,y" of --pixel. Throws InputError where there is no such pixel, or nothing that the tree could be seen at.
-NamedPlace pixel_place(const std::string& text, const TraceScene& scene, const AnySampler& guide);
+NamedPoint named_pixel(const std::string& text, const TraceScene& scene, const AnySampler& guide);
 
 /// "x,y,z" or "x,y,z:nx,ny,nz" of --point. Throws InputError if it lies outside of the tree's cube.
-NamedPlace point_place(const std::string& text, const AnySampler& guide);
+NamedPoint named_point(const std::string& text, const AnySampler& guide);
 
 /// A learned distribution beside true ones.
 struct Comparison {
@@ -32,16 +32,16 @@ struct Comparison {
 };
 
 /// Report of what was seen at a place.
-struct PlaceReport {
+struct PointReport {
     std::string text;
     Vec3 position{0.0f};
-    PlaceFacts facts;
+    PointFacts facts;
     double reflected = 0;  ///< radiance (mean of the channels) that the surface sends to the pixel, by brute force
     std::vector<Comparison> comparisons;
 };
 
 /// Traces the truth at a place and writes its pictures to `folder`.
-PlaceReport look_at_place(const NamedPlace& named, const InspectedRun& run, const TraceScene& scene,
+PointReport inspect_point(const NamedPoint& named, const InspectedRun& run, const TraceScene& scene,
                           const AnySampler& guide, const BruteForce& settings, const std::filesystem::path& folder);
 
 }  // namespace treefarm

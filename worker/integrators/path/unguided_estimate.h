@@ -11,7 +11,7 @@ namespace treefarm {
 ///
 /// The expectation of `moment`, the sum over all contributions of what each adds to the square of what was found so
 /// far, times that likelihood, is the second moment of unguided samples exactly.
-class UnguidedTwin {
+class UnguidedEstimate {
   public:
     /// Goes on along a direction, with the densities that guided and unguided paths draw it with, or through roulette,
     /// with the chances that they survive it.
@@ -39,10 +39,10 @@ class UnguidedTwin {
 
     /// The twin of one of the paths that a split path goes on as: it has found what the path has, but its moment and
     /// cost begin at 0, since the path's own twin counts those.
-    UnguidedTwin split_off() const {
-        UnguidedTwin twin = *this;
-        twin.moment_ = twin.cost_ = 0.0f;
-        return twin;
+    UnguidedEstimate split_off() const {
+        UnguidedEstimate estimate = *this;
+        estimate.moment_ = estimate.cost_ = 0.0f;
+        return estimate;
     }
 
   private:
@@ -50,17 +50,17 @@ class UnguidedTwin {
 };
 
 /// What a camera path tells of unguided ones, with all the paths that it left: second moment, and cost in rays.
-struct UnguidedTell {
+struct UnguidedTotal {
     float moment = 0.0f, cost = 0.0f;
 
-    void add(const UnguidedTell& other) {
+    void add(const UnguidedTotal& other) {
         moment += other.moment;
         cost += other.cost;
     }
     /// One more way out of glass, and twice the product of what both ways found.
-    void add(const UnguidedTwin& way, float product) {
-        moment += way.moment() + product;
-        cost += way.cost();
+    void add(const UnguidedEstimate& branch, float product) {
+        moment += branch.moment() + product;
+        cost += branch.cost();
     }
 };
 

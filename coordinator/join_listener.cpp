@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/guest_door.h"
+#include "coordinator/join_listener.h"
 
 #include "common/comm/join_ticket.h"
 #include "common/comm/tcp_channel.h"
@@ -7,8 +7,8 @@
 
 namespace treefarm {
 
-GuestDoor::GuestDoor(Channel& channel, const Job::Farm& farm, std::uint64_t fingerprint,
-                     const std::filesystem::path& run, const Log& log) {
+JoinListener::JoinListener(Channel& channel, const Job::Farm& farm, std::uint64_t fingerprint,
+                           const std::filesystem::path& run, const Log& log) {
     if (!farm.join) return;
     GuestOptions options;
     options.address = farm.join_address;
@@ -24,7 +24,7 @@ GuestDoor::GuestDoor(Channel& channel, const Job::Farm& farm, std::uint64_t fing
     log->debug("only who joins is authenticated: the network between processes of MPI is trusted");
 }
 
-GuestDoor::~GuestDoor() {
+JoinListener::~JoinListener() {
     std::error_code ignored;
     if (!ticket_.empty()) std::filesystem::remove(ticket_, ignored);
 }
