@@ -166,7 +166,7 @@ FileJson log_lines(const ConfinedFolder& root, const std::string& path) {
 
 }  // namespace
 
-Here this_host() {
+Here local_host() {
     return {std::time(nullptr), host_name(),
             [](int pid) { return pid > 0 && (::kill(pid, 0) == 0 || errno != ESRCH); }};
 }

@@ -16,7 +16,7 @@ struct Here {
     std::string host;                      ///< this machine's name
     std::function<bool(int)> has_process;  ///< whether a process of this machine lives, by its number
 };
-Here this_host();
+Here local_host();
 
 /// What is known of a run by its files, for the list: name, state, how far it is, its error, its picture's version.
 /// A file that is missing, half there or of another program leaves its figures null. `state` is status.json's, or

@@ -37,7 +37,7 @@ struct SiteAccess {
 /// cost a render nothing. May be used by several threads.
 class Site {
   public:
-    Site(ConfinedFolder folder, SiteAccess access, std::function<Here()> here = this_host);
+    Site(ConfinedFolder folder, SiteAccess access, std::function<Here()> here = local_host);
 
     SiteResponse respond(const SiteRequest& request);
 

@@ -11,7 +11,7 @@ namespace {
 constexpr std::int64_t kMaxInt = std::numeric_limits<int>::max();
 constexpr std::int64_t kMaxSpp = std::int64_t{1} << 30;
 
-/// The key whose value is a number, or (by default) that it is learned.
+/// The key guiding.bsdf_fraction: a number, or (by default) learned.
 JobKey bsdf_fraction_key() {
     JobKey key = number_key(
         "guiding.bsdf_fraction", "more than 0, at most 1; or \"learned\" per region of the tree",
@@ -33,7 +33,7 @@ JobKey bsdf_fraction_key() {
     return key;
 }
 
-/// The key whose value is a number, or (by default) as usual.
+/// The key guiding.bootstrap: a number, or (by default) the program's choice.
 JobKey bootstrap_key() {
     JobKey key = number_key(
         "guiding.bootstrap", "0 to 1, or \"usual\"",

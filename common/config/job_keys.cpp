@@ -19,7 +19,7 @@ namespace {
 constexpr std::int64_t kMaxInt = std::numeric_limits<int>::max();
 constexpr std::int64_t kMaxSpp = std::int64_t{1} << 30;
 
-/// The estimator, by the list of all.
+/// The key integrator.type; its values come from the list of estimators.
 JobKey estimator_key() {
     std::vector<std::pair<std::string, std::string>> words;
     std::string meaning = "how the image is estimated;";
@@ -33,10 +33,10 @@ JobKey estimator_key() {
     return key;
 }
 
-/// An effect that is not forced off, in a word.
+/// Value of an effect's key that does not switch it off.
 constexpr const char* kWhereCalledFor = "where_called_for";
 
-/// Forces an effect off.
+/// The key that switches an effect off.
 JobKey effect_key(const EffectSwitch& effect) {
     const std::string name = effect.name;
     return {kEffectsPrefix + name,
@@ -53,7 +53,7 @@ JobKey effect_key(const EffectSwitch& effect) {
             {}};
 }
 
-/// The key whose value is a number, or (by default, 0) that next event decides.
+/// The key integrator.light_samples: a number, or (by default, 0) decided by next event.
 JobKey light_samples_key() {
     constexpr const char* kByNextEvent = "by_next_event";
     JobKey key = number_key(
@@ -71,7 +71,7 @@ JobKey light_samples_key() {
     return key;
 }
 
-/// The layers of the image besides colour.
+/// The key output.aovs: layers besides colour.
 JobKey aovs_key() {
     std::string range;
     for (const AovKind& kind : aov_kinds())
@@ -98,7 +98,7 @@ JobKey aovs_key() {
             }};
 }
 
-/// The techniques of bidirectional paths that are shown.
+/// The key integrator.techniques of bidirectional paths.
 JobKey techniques_key() {
     return {"bidirectional.techniques",
             ValueKind::text,

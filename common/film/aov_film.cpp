@@ -13,9 +13,9 @@ namespace treefarm {
 
 namespace {
 
-/// A number that sums of samples can come to, and that can be added up further.
+/// Whether the value is a possible sum of samples, with margin for further addition.
 bool is_sum(double value) {
-    constexpr double kMost = 1e60;  // 10^38 times 10^9 samples fit in
+    constexpr double kMost = 1e60;  // at most 10^38 times 10^9 samples
     return value > -kMost && value < kMost;
 }
 

@@ -60,7 +60,7 @@ void serialize(Archive& a, EmissionSums& s) {
 
 template <class Archive>
 void serialize(Archive& a, LightSubpathGain& g) {
-    a(g.noise, g.rays, g.found);
+    a(g.noise, g.rays, g.mean_ratio);
 }
 
 /// But for the threads, which each life of a render has of its own.
@@ -134,7 +134,7 @@ void serialize(Archive& a, GuidingEfficiency& w) {
 
 template <class Archive>
 void serialize(Archive& a, SplittingGain& g) {
-    a(g.variance, g.rays, g.found);
+    a(g.variance, g.rays, g.mean_ratio);
 }
 
 template <class Archive>
