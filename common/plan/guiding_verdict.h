@@ -6,11 +6,11 @@
 
 namespace treefarm {
 
-/// Verdict after a guided pass that taught, by what its samples tell of unguided ones, times the factor `mistrust` by
-/// which unguided passes were noisier than such samples had said. Guided is what stays where nobody knows: it loses at
-/// most its cost, while unguided paths may lose without bound. A tree that is worth more than `before`, what is known
-/// of the tree before it, is judged as the next one, which should be worth as much more again. The trees of short
-/// passes get better in any case, so those have to say more loudly that guiding loses.
+/// Verdict after a guided pass that taught, from the efficiency of guiding times `mistrust`, the factor by which
+/// unguided passes were noisier than guided samples had predicted. In doubt passes stay guided: guiding loses at most
+/// its cost, unguided paths may lose without bound. If a tree is more efficient than `before`, the previous tree, the
+/// next is expected to gain as much again and is judged in its place. Trees of short passes improve in any case, so
+/// giving up needs stronger evidence there.
 Guiding judge_guiding(const PassPlan& pass, const GuidingEfficiency& efficiency, const GuidingEfficiency& before,
                       double mistrust);
 
