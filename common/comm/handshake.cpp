@@ -27,7 +27,7 @@ bool equal(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
     return a.size() == b.size() && sodium_memcmp(a.data(), b.data(), a.size()) == 0;
 }
 
-/// The guest's words and the coordinator's up to its proof.
+/// The guest's hello followed by the coordinator's answer up to its proof.
 Bytes both(std::span<const std::uint8_t> hello, std::span<const std::uint8_t> answer) {
     Bytes bytes(hello.begin(), hello.end());
     bytes.insert(bytes.end(), answer.begin(), answer.end());
@@ -82,7 +82,7 @@ void ListenerHandshake::take(std::span<const std::uint8_t> bytes) {
     reader_->feed(bytes);
 }
 
-/// Reads as far as is there, so that a stranger is known by its first bytes.
+/// Reads as many fields as have arrived, so that a foreign protocol is recognised by its first bytes.
 void ListenerHandshake::read_hello() {
     if (got_.size() < kBeginBytes) return;
     ByteReader reader(got_);

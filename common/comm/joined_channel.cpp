@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A guest's end: connects, proves itself, and is a channel from then on.
+// The guest's end: connects, authenticates itself, and is a channel from then on.
 #include <poll.h>
 #include <sys/socket.h>
 
@@ -19,7 +19,7 @@ namespace {
 constexpr double kConnectSeconds = 10, kAnswerSeconds = 10;
 constexpr std::size_t kScratchBytes = std::size_t{256} << 10;
 
-/// A worker's numbers on its own channel: it knows nobody but the coordinator.
+/// Peer numbers on a guest's own channel, which has only the coordinator.
 constexpr int kSelf = 1, kPeers = 2;
 
 bool wait_for(int fd, short events, double seconds) {
