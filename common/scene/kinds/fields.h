@@ -6,10 +6,10 @@
 
 namespace treefarm {
 
-/// Kinds of shapes, materials, emitters and textures name each of their values once, in fields(self, visitor), in the
-/// order in which they are packed. Packing, range checks, `treefarm check`, use of textures and images, removal of what
-/// is unused, docs/generated/scene.md and seeds for the fuzzer follow from that. A visitor has, for what a value is, of
-/// any kind:
+/// Kinds of shapes, materials, emitters and textures list each of their values once, in fields(self, visitor), in
+/// packed order. Packing, range checks, `treefarm check`, use of textures and images, removal of unused parts,
+/// docs/generated/scene.md and seeds for the fuzzer are derived from that list. A visitor has these members, by type of
+/// value, for any kind:
 ///
 ///     flag(name, bool&)
 ///
@@ -60,7 +60,7 @@ namespace treefarm {
 ///
 /// Names are words for messages: "specular reflectance".
 
-/// A visitor that looks at nothing: others derive from it and hide what they care for.
+/// A visitor that ignores everything; base of visitors that handle only some values.
 struct IgnoreFields {
     void fraction(const char*, const auto&) {}
     void anisotropy(const auto&) {}
@@ -95,7 +95,7 @@ struct IgnoreFields {
     void attributes(const auto&) {}
 };
 
-/// Calls f for each image that a kind is made of, by a reference that may be changed.
+/// Visitor that calls f for each image of a kind, by a modifiable reference.
 template <class F>
 struct ImageVisitor : IgnoreFields {
     F& f;
@@ -103,7 +103,7 @@ struct ImageVisitor : IgnoreFields {
     void image(auto& index) { f(index); }
 };
 
-/// Shows a visitor each value of what a variant of kinds holds, const or not.
+/// Calls a visitor for each value of a variant of kinds, const or not.
 template <class Kind, class Visitor>
 void visit_fields(Kind& kind, Visitor&& visitor) {
     std::visit([&](auto& held) { std::decay_t<decltype(held)>::fields(held, visitor); }, kind);
