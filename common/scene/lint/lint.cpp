@@ -72,8 +72,8 @@ void lint_camera_surroundings(const Scene& scene, const Imath::V3d& origin, std:
 
 }  // namespace
 
-/// Finding about a scene far from the origin: floats have 24 bits, and coordinates lose one for each doubling of the
-/// distance over the size.
+/// Findings about missing shapes or emitters, and about the size and the position of the scene: floats have 24 bits, of
+/// which a scene far from the origin uses fewer.
 void lint_scale(const Scene& scene, std::vector<Finding>& findings) {
     const auto add = [&](Finding::Severity severity, const char* kind, const std::string& what,
                          const std::string& cure) {
