@@ -14,8 +14,8 @@ struct Technique {
     bool operator==(const Technique&) const = default;
 };
 
-/// Techniques of a list "0,3 1,2": vertices from the lamp, vertices from the camera. "all" gives an empty vector. If the
-/// text is malformed, `why` holds the reason and the cure.
+/// Techniques of a list "0,3 1,2": vertices from the lamp, vertices from the camera. "all" gives an empty vector. If
+/// the text is malformed, `why` holds the reason and the cure.
 std::vector<Technique> parse_techniques(const std::string& text, std::string& why);
 
 /// The list as text for parse_techniques().

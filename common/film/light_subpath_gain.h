@@ -15,7 +15,7 @@ class SubpathPairs {
     /// Contributions of one sample.
     struct Sample {
         double own = 0;                        ///< luminance at its own pixel
-        double alone = 0;                      ///< the same without the light subpath
+        double alone = 0;                      ///< luminance there without the light subpath
         double splats = 0, splat_squares = 0;  ///< sum and sum of squares of contributions to any pixel
     };
 

@@ -70,8 +70,8 @@ class SplatLog {
 
     /// Empties the log.
     void begin(const SplatShape& shape);
-    /// Adds a splat. `sample`: index of the path's sample, or of the chain, which selects the half; `bits`: keyed random
-    /// numbers for stochastic rounding. Zero splats may be left out.
+    /// Adds a splat. `sample`: index of the path's sample, or of the chain, which selects the half; `bits`: keyed
+    /// random numbers for stochastic rounding. Zero splats may be left out.
     void add(std::uint32_t pixel, std::uint32_t sample, const Rgb& value, const Draw& bits);
     /// Ends a chain: later splats belong to another one. Squares are those of batch means (docs/design/error.md,
     /// "splats").

@@ -33,8 +33,8 @@ inline std::uint64_t multiples_in(std::uint64_t first, std::uint64_t count, std:
 /// direct light would have with it, relative to the square of the mean light around the pixel.
 enum NextEventSum : std::size_t {
     kNextEventAsked,   ///< vertices that may sample an emitter with extent
-    kNextEventDrawn,   ///< those that did
-    kNextEventTraced,  ///< those that needed a shadow ray
+    kNextEventDrawn,   ///< vertices at which one was sampled
+    kNextEventTraced,  ///< samples that needed a shadow ray
     kNextEventMoments,
     kNextEventSpread = kNextEventMoments + kNextEventSamples.size(),  ///< squares of the last moment minus the first
     kNextEventSums,

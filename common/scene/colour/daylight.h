@@ -19,8 +19,8 @@ struct SkyAngles {
     double azimuth = 0.0;  ///< from north over east
 };
 
-/// Position of the sun, as in Mitsuba 0.6's sunmodel.h (computeSunCoordinates), which names Blanco-Muriel et al. 2001 as
-/// its source; accurate to half a minute of arc according to Mitsuba's documentation.
+/// Position of the sun, as in Mitsuba 0.6's sunmodel.h (computeSunCoordinates), which names Blanco-Muriel et al. 2001
+/// as its source; accurate to half a minute of arc according to Mitsuba's documentation.
 SkyAngles sun_position(const Observation& observation);
 
 /// Radiance of the sun's disk in linear Rec. 709, W / (m^2 sr nm), through air of this turbidity: Preetham, Shirley and
