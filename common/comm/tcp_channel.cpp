@@ -158,7 +158,7 @@ void TcpChannel::adopt(Socket socket, const std::string& from) {
         (void)::recv(socket.fd(), scratch_.data(), scratch_.size(),
                      MSG_DONTWAIT);  // unread data would destroy the answer
         warn("a connection from " + from + " was closed: " + std::to_string(limits_.most_unproven) +
-             " others have proved nothing yet");
+             " other connections are not authenticated yet");
         return;
     }
     visitors_.push_back({std::move(socket), from, clock_(), {ticket_, options_.fingerprint, draw_join_key()}});
@@ -167,7 +167,7 @@ void TcpChannel::adopt(Socket socket, const std::string& from) {
 /// Handles data from an unauthenticated connection. Returns the fault, if any.
 std::string TcpChannel::hear(Visitor& visitor) {
     const ssize_t count = ::recv(visitor.socket.fd(), scratch_.data(), kMostUnprovenBytes, MSG_DONTWAIT);
-    if (count == 0) return "it closed it itself";
+    if (count == 0) return "it closed the connection";
     if (count < 0) return errno == EAGAIN || errno == EINTR ? "" : std::strerror(errno);
     try {
         visitor.handshake.take(std::span(scratch_).first(static_cast<std::size_t>(count)));
@@ -180,7 +180,8 @@ std::string TcpChannel::hear(Visitor& visitor) {
 /// Handles an unauthenticated connection, which may have data if `ready`; false: it is to be removed.
 bool TcpChannel::see_to(Visitor& visitor, bool ready) {
     std::string why = ready ? hear(visitor) : "";
-    if (!send_at_once(visitor.socket, visitor.handshake.take_answer()) && why.empty()) why = "it takes no answer";
+    if (!send_at_once(visitor.socket, visitor.handshake.take_answer()) && why.empty())
+        why = "the answer could not be sent";
     if (why.empty() && visitor.handshake.is_admitted()) {
         links_.emplace(next_peer_++, Guest{{std::move(visitor.socket), visitor.handshake.sending_key(),
                                             visitor.handshake.take_reader()},
@@ -188,7 +189,8 @@ bool TcpChannel::see_to(Visitor& visitor, bool ready) {
                                            {}});
         return false;
     }
-    if (why.empty() && clock_() - visitor.since > limits_.unproven_seconds) why = "it said too little for too long";
+    if (why.empty() && clock_() - visitor.since > limits_.unproven_seconds)
+        why = "it did not authenticate itself in time";
     if (why.empty()) return true;
     warn("a connection from " + visitor.from + " was closed: " + why);
     return false;
@@ -203,14 +205,14 @@ void TcpChannel::give_up_slow(Guest& guest) {
     else if (!guest.behind)
         guest.behind = {unsent, now};
     else if (now - guest.behind->since >= limits_.unsent_seconds) {
-        if (unsent >= guest.behind->bytes) guest.link.close("it takes in less than it is sent");
+        if (unsent >= guest.behind->bytes) guest.link.close("it receives more slowly than data are sent to it");
         guest.behind = {unsent, now};
     }
 }
 
 void TcpChannel::warn(const std::string& text) {
     if (++warnings_ > kMostWarnings || !options_.warning) return;
-    options_.warning(text + (warnings_ == kMostWarnings ? "; further ones are not told" : ""));
+    options_.warning(text + (warnings_ == kMostWarnings ? "; further ones are not reported" : ""));
 }
 
 void TcpChannel::close(double seconds) {
