@@ -78,7 +78,7 @@ class ChainReceiver {
     std::map<BlobName, Assembly> assemblies_;
     std::uint32_t job_ = 0;
     std::map<Blob, std::uint32_t> latest_collected_;  ///< epochs; late pieces of these are forwarded, not kept
-    std::set<BlobName> mistrusted_;                   ///< only pieces from the coordinator itself count for these
+    std::set<BlobName> mistrusted_;                   ///< blobs for which only pieces from the coordinator itself count
 };
 
 }  // namespace treefarm

@@ -25,7 +25,7 @@ class IdlePause {
     }
 
   private:
-    static constexpr int kLooks = 8;  ///< in a row, some microseconds
+    static constexpr int kLooks = 8;  ///< polls without a pause, some microseconds in all
     static constexpr double kShortestSeconds = 20e-6;
     static constexpr double kMovingSeconds = 200e-6;
     static constexpr double kLongestSeconds = 2e-3;

@@ -45,22 +45,22 @@ inline constexpr float kUsualBootstrap = -1.0f;
 /// Duration of a technique within a render.
 enum class Rule : std::uint8_t {
     usual,          ///< decided by other keys; resolved jobs have another value
-    always,         ///< to the end
+    always,         ///< in all passes of the render
     while_it_pays,  ///< while finished passes show that it pays (film/guiding_efficiency.h, film/splitting_gain.h)
 };
 
 /// Probabilities by which next event chooses among a scene's emitters.
 enum class LightSelection : std::uint8_t {
-    power,    ///< by power, equal everywhere
-    even,     ///< all equal
-    tree,     ///< by an estimate of each emitter's contribution at the point
+    power,    ///< probability in proportion to power, everywhere
+    even,     ///< equal probabilities
+    tree,     ///< probability by an estimate of each emitter's contribution at the point
     learned,  ///< tree, corrected per region by what next event has found there
 };
 
 /// Russian roulette of guided paths.
 enum class GuidingRoulette : std::uint8_t {
     constant,  ///< paths survive with 0.99
-    adjoint,   ///< by the light that the guide expects of a path, relative to its first vertex
+    adjoint,   ///< survival by the light that the guide expects of a path, relative to its first vertex
 };
 
 /// All inputs of a render besides the scene. Key names, documentation and ranges are in one table, job_keys.cpp; the

@@ -34,11 +34,11 @@ struct StudyReference {
 /// A matrix of methods, scenes and seeds (docs/use/studies.md).
 struct Study {
     std::string file;
-    std::string directory;             ///< absolute or relative to the current folder
-    std::vector<Setting> job;          ///< keys of all cells
-    std::vector<Setting> budgets;      ///< all of one kind (time, samples or error); each method has a cell for each
-    std::vector<StudyScene> scenes;    ///< in the file's order
-    std::vector<StudyMethod> methods;  ///< with every combination of [vary]
+    std::string directory;           ///< absolute or relative to the current folder
+    std::vector<Setting> job;        ///< keys of all cells
+    std::vector<Setting> budgets;    ///< budgets of one kind (time, samples or error); each method has a cell for each
+    std::vector<StudyScene> scenes;  ///< scenes in the file's order
+    std::vector<StudyMethod> methods;  ///< methods with every combination of [vary]
     std::vector<std::uint64_t> seeds;
     std::string baseline;  ///< method to which others are compared
     int warmup = 1;        ///< cells per scene that are rendered first and discarded

@@ -29,7 +29,7 @@ enum class Aov : std::uint8_t {
 /// Name and properties of an AOV for users and EXR files.
 struct AovKind {
     Aov aov;
-    const char* name;        ///< in output.aovs; also the layer's name by default
+    const char* name;        ///< name in output.aovs; also the layer's default name
     const char* components;  ///< one channel each: "RGB" stands for NAME.R, NAME.G, NAME.B; alpha has A alone
     bool precise;            ///< stays 32 bits wide where colours are stored as halves
     const char* meaning;     ///< one line

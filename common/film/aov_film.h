@@ -48,7 +48,7 @@ class AovFilm {
     int width_;
     std::uint32_t chunks_;
     std::vector<double> values_;
-    std::unordered_map<std::uint32_t, Pending> pending_;  ///< by pixel: those that lack chunks
+    std::unordered_map<std::uint32_t, Pending> pending_;  ///< pixels that lack chunks, by index
     PassFilm direct_;
 };
 

@@ -36,7 +36,7 @@ struct PassResult {
     std::uint32_t spp = 0;              ///< n_k, samples per pixel
     std::uint32_t spp_before = 0;       ///< N_k, samples per pixel of all passes before
     std::vector<PixelEstimate> pixels;  ///< row by row
-    bool same_tree = false;             ///< with the pass before it
+    bool same_tree = false;             ///< as the pass before it
     bool new_technique = false;         ///< next event started or stopped with this pass
     bool guided = true;                 ///< false after guiding was given up
     SampleNoise noise{};                ///< of this pass and those after it that are alike (remember_noise)
@@ -48,7 +48,7 @@ struct PassResult {
 struct CombinedImage {
     std::vector<Rgb64> mean;         ///< per pixel
     std::vector<Rgb64> variance;     ///< estimated variance of `mean`, per pixel and channel
-    std::uint32_t longest_pass = 0;  ///< in samples per pixel; variances exist from two on
+    std::uint32_t longest_pass = 0;  ///< of the longest pass, in samples per pixel; variances exist from two on
     std::vector<Rgb64> half[2];      ///< two independent halves; `mean` is their average where both exist
     std::vector<double> weight;      ///< of each pass, merged ones included; sums to 1 (mean of both halves)
 };

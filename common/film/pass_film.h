@@ -50,7 +50,7 @@ class PassFilm {
         std::vector<PixelEstimate> chunks;
         std::uint32_t arrived = 0;
     };
-    std::unordered_map<std::uint32_t, Pending> pending_;  ///< by pixel: those that lack chunks
+    std::unordered_map<std::uint32_t, Pending> pending_;  ///< pixels that lack chunks, by index
 };
 
 }  // namespace treefarm

@@ -125,7 +125,7 @@ class SplatSums {
 
   private:
     SplatShape shape_;
-    std::vector<SplatMoments> moments_;  ///< by slot
+    std::vector<SplatMoments> moments_;  ///< two per pixel, by SplatLog::Entry::slot
     SplatCaps caps_;
 };
 

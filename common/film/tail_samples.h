@@ -12,7 +12,7 @@ namespace treefarm {
 
 /// A sample that makes up much of its pixel's noise (a firefly), with the origin of its light.
 struct TailSample {
-    float noise = 0;  ///< its contribution to the variance of its pixel's mean (luminance)
+    float noise = 0;  ///< contribution to the variance of the pixel's mean (luminance)
     std::uint32_t pass = 0;
     std::uint16_t x = 0, y = 0;
     std::uint32_t sample = 0;  ///< index within the pass

@@ -69,7 +69,8 @@ struct TraceStats {
     std::uint64_t records = 0;          ///< vertices recorded for the guide
     std::uint64_t split_path_rays = 0;  ///< rays of split paths, within `rays`
     std::uint64_t invalid_samples = 0;
-    NextEventSums next_event{};  ///< if the decision needs it; moments only where regions record nothing
+    NextEventSums next_event{};  ///< filled if a decision on next event needs it; moments only in passes that do not
+                                 ///< record by region
     SplittingSums splitting;
     UnguidedSums unguided;  ///< of guided passes that measure guiding efficiency
     LightSubpathSums light_subpaths;

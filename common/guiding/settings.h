@@ -13,8 +13,8 @@ enum class SpatialFilter : std::uint8_t {
 
 /// Distribution of a record over a region's directional cells.
 enum class DirectionalFilter : std::uint8_t {
-    nearest,  ///< all of it into the cell of its direction
-    box,      ///< over a square of that cell's size around its direction
+    nearest,  ///< the whole record goes to the cell of its direction
+    box,      ///< the record spreads over a square of that cell's size around its direction
 };
 
 /// Quantity in proportion to which a region's cells are sampled.

@@ -14,7 +14,7 @@ enum class ImageFormat { png, jpeg, hdr, bmp, tga, netpbm };
 /// Bytes of a PNG, JPEG, Radiance HDR, BMP, TGA, PGM, PPM or PFM file that may be decoded.
 struct EncodedImage {
     ImageFormat format = ImageFormat::png;
-    int width = 0, height = 0;   ///< as the file claims, pixels
+    int width = 0, height = 0;   ///< claimed size, pixels
     std::size_t data_begin = 0;  ///< hdr: offset of the first pixel
     std::vector<std::uint8_t> bytes;
 };

@@ -26,7 +26,7 @@ constexpr std::uint32_t kMultiPartFlag = 0x1000;
 /// Claims of a header that memory depends on.
 struct Claims {
     std::uint64_t width = 0, height = 0;
-    std::uint64_t pixel_bytes = 0;  ///< all channels
+    std::uint64_t pixel_bytes = 0;  ///< bytes of all channels
     std::uint8_t compression = 0;
     std::optional<std::uint64_t> tile_width, tile_height;
 };

@@ -49,8 +49,8 @@ struct PixelZTest {
 /// Test per block and channel: z of the block's mean difference. Finds a bias below the noise of single pixels.
 struct BlockZTest {
     std::uint64_t tests = 0;     ///< blocks with a valid pixel, times three channels
-    std::uint64_t beyond_3 = 0;  ///< |z| > 3: 0.27 % of the tests by chance
-    std::uint64_t beyond_4 = 0;  ///< |z| > 4: 0.0063 % by chance
+    std::uint64_t beyond_3 = 0;  ///< tests with |z| > 3; 0.27 % by chance
+    std::uint64_t beyond_4 = 0;  ///< tests with |z| > 4; 0.0063 % by chance
     double mean_z2 = 0.0;        ///< mean of z^2, near 1 without bias
     double max_abs_z = 0.0;
     int worst_x = 0, worst_y = 0;   ///< first pixel of the block with the greatest |z|

@@ -13,7 +13,7 @@ struct EffectDescription {
     std::string group;  ///< "materials"
     std::string what;   ///< one line
     std::string when;   ///< condition under which it is on
-    std::string cost;   ///< in memory and in time
+    std::string cost;   ///< cost in memory and in time
     bool simulated = true;
 };
 

@@ -18,7 +18,7 @@ struct Expectation {
     bool known = false;
     bool reached = false;   ///< the finished passes suffice
     std::string unknown;    ///< reason why it is unknown
-    Expected spp, seconds;  ///< in all
+    Expected spp, seconds;  ///< totals of the render
     Expected error;         ///< rmse / mean luminance
 };
 

@@ -11,7 +11,7 @@ struct KernelChoice {
     bool plain_diffuse = false;  ///< surfaces without textures, lobes or tilted normals; otherwise all surfaces
     bool guided = false;
     bool record = false;
-    bool views = false;  ///< with the tree's view-dependent part
+    bool views = false;  ///< uses the tree's view-dependent part
 
     bool operator==(const KernelChoice&) const = default;
     /// Name for people: "diffuse, guided, recording".

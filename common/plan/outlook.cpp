@@ -19,7 +19,7 @@ struct TreeFacts {
     double spp = 0;
     double samples_times_variance = 0, samples_times_trimmed = 0, known_spp = 0;
     double trace_core_seconds = 0;  ///< without the log of records
-    bool first = false;             ///< before anything was learned
+    bool first = false;             ///< the tree before anything was learned
     bool next_event = false;
 
     double variance() const { return samples_times_variance / known_spp; }

@@ -42,7 +42,7 @@ struct RenderHistory {
     bool splitting = true;       ///< may pay
     bool light_subpaths = true;  ///< may pay
     EmissionSums emission;       ///< of all passes
-    BudgetMemory budget;         ///< as of the last finished pass: its NextPass::memory
+    BudgetMemory budget;         ///< memory as of the last finished pass: its NextPass::memory
 
     std::uint32_t spp() const { return passes.empty() ? 0 : passes.back().spp_before + passes.back().spp; }
     /// Samples per pixel of the passes that had the last pass's tree.

@@ -14,7 +14,7 @@ struct PolicyEntry {
     const char* name;  ///< "guiding.giving_up"
     double value;
     bool single;           ///< float, whose shortest text is shorter than that of a double
-    const char* meaning;   ///< with the unit
+    const char* meaning;   ///< explanation with the unit
     const char* evidence;  ///< source: a publication, a page of bench/log, or a guess
 };
 

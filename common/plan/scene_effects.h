@@ -11,7 +11,7 @@ namespace treefarm {
 struct SceneEffects {
     bool textures = false;  ///< of materials or area emitters
     bool masks = false;
-    bool bump = false;  ///< or normal maps
+    bool bump = false;  ///< bump or normal maps
     bool anisotropy = false;
     bool transmission = false;
     bool environment = false;

@@ -19,7 +19,7 @@ struct PassUnits {
     bool tiles = true;
     std::uint32_t light_paths = 0;       ///< per pixel, in ranges; path i has pixel i mod pixels as its key
     std::uint32_t first_light_path = 0;  ///< per pixel, in earlier passes
-    std::uint32_t chains = 0;            ///< in ranges
+    std::uint32_t chains = 0;            ///< Markov chains, in ranges
 
     bool operator==(const PassUnits&) const = default;
 };
@@ -38,7 +38,7 @@ struct PassPlan {
     std::uint32_t spp = 0;              ///< samples per pixel
     std::uint32_t first_sample = 0;     ///< samples per pixel of earlier passes
     bool next_event = false;            ///< samples emitters directly
-    bool guided = true;                 ///< by the model, if there is one
+    bool guided = true;                 ///< guided by the model, if there is one
     bool split = true;                  ///< may split paths, if the job allows it
     bool light_subpaths = true;         ///< of an estimator from both ends; without, it traces camera paths only
     bool record = false;                ///< records for the guide (the last pass does not)

@@ -22,7 +22,7 @@ enum class Kind : std::uint8_t {
     want,        ///< worker: asks for more units
     work,        ///< coordinator: units to trace
     result,      ///< worker: pixels and tree update of finished units
-    heartbeat,   ///< both: alive
+    heartbeat,   ///< both: still alive
     failure,     ///< worker: cannot continue, with the reason
     rejoin,      ///< coordinator: the worker was considered lost and must start anew
     quit,        ///< coordinator: stop tracing

@@ -48,7 +48,7 @@ struct Welcome {
     std::string job;                 ///< TOML text of the resolved job
     std::uint64_t scene_hash = 0;    ///< of the encoded scene, which is sent unless the worker has it
     std::uint64_t scene_bytes = 0;   ///< size of the scene, so that a worker notices if no piece of it arrives
-    bool keep_scene = false;         ///< more jobs may follow
+    bool keep_scene = false;         ///< the scene is needed again: more jobs may follow
 
     bool operator==(const Welcome&) const = default;
 };
@@ -114,7 +114,7 @@ struct Want {
 struct Work {
     static constexpr Kind kKind = Kind::work;
     std::uint32_t pass = 0;
-    std::vector<WorkUnit> units;  ///< all of this pass
+    std::vector<WorkUnit> units;  ///< units of this pass
     bool alone = false;           ///< the result must be sent at once, alone
 
     bool operator==(const Work&) const = default;
@@ -124,7 +124,7 @@ struct Work {
 struct Drop {
     static constexpr Kind kKind = Kind::drop;
     std::uint32_t pass = 0;
-    std::vector<WorkUnit> units;  ///< all of this pass
+    std::vector<WorkUnit> units;  ///< units of this pass
 
     bool operator==(const Drop&) const = default;
 };
@@ -133,7 +133,7 @@ struct Drop {
 struct UnitResult {
     WorkUnit unit;
     std::vector<PixelEstimate> pixels;
-    AovPixels aovs;  ///< as the job requests
+    AovPixels aovs;  ///< AOVs that the job requests
 };
 
 /// Finished units and the guide update from exactly these units: result and acknowledgement in one message.

@@ -34,7 +34,7 @@ class LightLearner {
 
   private:
     struct Evidence {
-        std::array<double, kLightClusters> moments{};  ///< in radiance squared, not in quanta
+        std::array<double, kLightClusters> moments{};  ///< second moments in radiance squared, not in quanta
         double vertices = 0;                           ///< number of recorded vertices
 
         template <class Archive>

@@ -123,7 +123,7 @@ class Pooling {
 
     const RegionModel& tree_;
     std::span<const NextEventEvidence> evidence_;
-    std::vector<NextEventEvidence> sums_;  ///< by node
+    std::vector<NextEventEvidence> sums_;  ///< evidence per node
     std::vector<NextEventEvidence> pooled_;
 };
 

@@ -23,7 +23,7 @@ class SdTreeSampler : public RegionSampler {
 
     /// A sampled point of the direction square (direction_map.h), with the density of the cell that it was drawn from.
     struct SquareSample {
-        Vec2 at;             ///< in [0, 1)^2
+        Vec2 at;             ///< point in [0, 1)^2
         std::uint32_t code;  ///< its Z-order code, inside the sampled cell
         float pdf;           ///< per steradian of the direction, > 0
     };

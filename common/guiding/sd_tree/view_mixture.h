@@ -36,7 +36,7 @@ class ViewLearner {
 
   private:
     struct Evidence {
-        MixtureHistogram histogram{};  ///< in the unit of records, not in quanta
+        MixtureHistogram histogram{};  ///< sums in the unit of records, not in quanta
         int idle_passes = 0;           ///< passes in which T2 was hardly worth sampling
         double others = 1.0;           ///< share of q
 

@@ -111,7 +111,7 @@ class CellAccumulator {
     const DirectionalFilter filter_;
     const bool with_mixture_;
     CellSums sums_;
-    std::optional<CellSums> spare_;  ///< all zero
+    std::optional<CellSums> spare_;  ///< cleared sums for reuse
     std::mutex caps_lock_;
     std::array<std::mutex, kStripes> stripe_locks_;
 };

@@ -13,7 +13,7 @@ struct EffectText {
     const char* what;   ///< one line
     const char*
         when;  ///< condition under which it is on; a `*` stands for the names of the effects that are part of it
-    const char* cost;  ///< in memory and in time
+    const char* cost;  ///< cost in memory and in time
 };
 
 /// Family of kinds (common/scene/kinds) that declares effects.

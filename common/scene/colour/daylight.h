@@ -15,8 +15,8 @@ struct Observation {
 
 /// A direction in the sky, radians.
 struct SkyAngles {
-    double zenith = 0.0;   ///< from straight up
-    double azimuth = 0.0;  ///< from north over east
+    double zenith = 0.0;   ///< angle from straight up
+    double azimuth = 0.0;  ///< angle from north over east
 };
 
 /// Position of the sun, as in Mitsuba 0.6's sunmodel.h (computeSunCoordinates), which names Blanco-Muriel et al. 2001

@@ -12,7 +12,7 @@ namespace treefarm {
 struct FirstHit {
     double distance = 0;
     std::size_t shape = 0;  ///< index of the shape; for an instance, of the member of its group
-    bool behind = false;    ///< from the side opposite to the normal
+    bool behind = false;    ///< hit on the side opposite to the normal
 };
 
 /// Intersects rays with shapes one by one, without a hierarchy: for a few hundred rays. Masks are ignored. The scene's

@@ -17,8 +17,8 @@ namespace {
 using Imath::V3d;
 using linting::point_of_square;
 
-constexpr int kColumns = 12, kRows = 8;  ///< of the camera's rays
-constexpr int kPoints = 2;               ///< of an emitter, for each camera ray
+constexpr int kColumns = 12, kRows = 8;  ///< grid of the camera's rays
+constexpr int kPoints = 2;               ///< points of each emitter per camera ray
 constexpr int kMostPanes = 8;            ///< panes of glass that a camera ray passes
 constexpr double kNearly = 1 - 1e-3;     ///< part of the way to an emitter: a hit beyond it is the emitter
 constexpr double kStep = 1e-5;           ///< offset from a surface, over the scene's size

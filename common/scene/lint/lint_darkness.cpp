@@ -28,7 +28,7 @@ struct HitCounts {
     int close = 0;
     int inside = 0;  ///< backs of any kind
     std::size_t shape = 0;
-    bool one_shape = true;  ///< all hits are of `shape`
+    bool one_shape = true;  ///< whether all hits are of `shape`
 
     bool all(int count) const { return hits > 0 && count == hits; }
 };

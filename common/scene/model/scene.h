@@ -21,9 +21,9 @@ namespace treefarm {
 /// these points form the plane of focus. An orthographic camera sees from these points along one direction.
 struct Camera {
     Vec3 origin{0.0f};
-    Vec3 corner{0.0f};                ///< to the film's upper left corner, not normalised
-    Vec3 across{0.0f};                ///< from the left to the right edge of the film
-    Vec3 down{0.0f};                  ///< from the upper to the lower edge
+    Vec3 corner{0.0f};                ///< vector to the film's upper left corner, not normalised
+    Vec3 across{0.0f};                ///< vector from the left to the right edge of the film
+    Vec3 down{0.0f};                  ///< vector from the upper to the lower edge
     Vec3 lens_u{0.0f}, lens_v{0.0f};  ///< half axes of the lens, in scene units; zero: a pinhole
     Vec3 parallel{0.0f};              ///< orthographic: direction of all rays, of length 1; zero: perspective
     /// Panorama: all directions, by longitude across and latitude down; `across`, `down` and `corner` are orthogonal,

@@ -11,7 +11,7 @@ namespace treefarm {
 
 /// Limits of the files and sizes of a scene from an untrusted source.
 struct SceneLimits {
-    std::filesystem::path root{};        ///< only files below it, links followed; empty: any
+    std::filesystem::path root{};        ///< folder that must contain all files, links followed; empty: no limit
     std::uint64_t file_bytes = ~0ull;    ///< of one file
     std::uint64_t image_pixels = ~0ull;  ///< of one image
     std::uint64_t triangles = ~0ull;     ///< of all meshes

@@ -9,8 +9,9 @@ namespace treefarm {
 /// points. Texture coordinates: (radius, azimuth over 2 pi) of (a, b).
 struct Disk {
     Vec3 center{0.0f};
-    Vec3 half_u{1.0f, 0.0f, 0.0f}, half_v{0.0f, 1.0f, 0.0f};  ///< at right angles or not, but not parallel
-    bool mirrored = false;                                    ///< the azimuth is that of (a, -b)
+    Vec3 half_u{1.0f, 0.0f, 0.0f},
+        half_v{0.0f, 1.0f, 0.0f};  ///< half axes, not parallel, not necessarily at right angles
+    bool mirrored = false;         ///< the azimuth is that of (a, -b)
 
     Box3 box() const { return box_about(center, ellipse_extent(half_u, half_v)); }
     /// Whether the half axes span a plane: neither is too short, or parallel to the other.

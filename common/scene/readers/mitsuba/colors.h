@@ -10,7 +10,7 @@ namespace treefarm::mitsuba {
 
 /// Use of a colour, which decides how spectra become Rgb.
 enum class ColorUse {
-    reflectance,  ///< in [0, 1]
+    reflectance,  ///< a factor in [0, 1]
     coefficient,  ///< a property of a surface without upper limit
     metal,        ///< eta or k of a conductor
     factor,       ///< factor on displacements, of any sign

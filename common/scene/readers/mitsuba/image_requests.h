@@ -18,7 +18,7 @@ struct Decoding {
 
     double gamma = kAuto;        ///< linear = encoded ^ gamma; kSrgb: sRGB's curve; kAuto: as the file says, else sRGB
     bool file_gamma = false;     ///< kAuto uses a PNG file's own gamma, as Mitsuba 0.6 does
-    std::string channel;         ///< only "r", "g", "b", "a" or "y"; "": all but alpha
+    std::string channel;         ///< one channel "r", "g", "b", "a" or "y"; "": all but alpha
     Location channel_where;      ///< of that choice, for messages
     bool signed_values = false;  ///< negative floats are kept
     bool is_light = false;       ///< infinite floats become the largest half

@@ -17,7 +17,7 @@ struct MeshOptions {
     bool flip_tex_coords = false;            ///< v becomes 1 - v
     std::optional<double> max_smooth_angle;  ///< degrees: the file's normals are dropped, sharper edges are kept
     Matrix to_world;
-    bool mirror_keeps_front = false;  ///< with a mirroring transformation, for files without normals
+    bool mirror_keeps_front = false;  ///< applies to files without normals under a mirroring transformation
 };
 
 /// Reads the common properties. Throws InputError without a file name, and for contradictions.

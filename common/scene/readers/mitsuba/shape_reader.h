@@ -42,7 +42,7 @@ class ShapeReader {
     const SceneDocument& document_;
     Diagnostics& diagnostics_;
     std::map<const XmlElement*, std::int32_t> groups_;
-    std::uint64_t triangles_ = 0;  ///< so far
+    std::uint64_t triangles_ = 0;  ///< triangles of the shapes read so far
 };
 
 }  // namespace treefarm::mitsuba

@@ -19,10 +19,10 @@ struct SkySettings {
     bool of_mitsuba_3 = false;
     double turbidity = 3.0;
     Rgb64 albedo = Rgb64(0.0);  ///< of the ground
-    double stretch = 1.0;       ///< from 1 (the upper half) to 2 (all directions)
+    double stretch = 1.0;       ///< extent of the sky, from 1 (the upper half) to 2 (all directions)
     bool extend = false;        ///< the horizon's radiance continues below it, fading
     double sky_scale = 1.0, sun_scale = 1.0;
-    double sun_radius_scale = 1.0;  ///< at constant irradiance
+    double sun_radius_scale = 1.0;  ///< factor on the sun's radius at constant irradiance
     int resolution = 512;           ///< pixels around the horizon; half as many from pole to pole
     SkyAngles position;             ///< of the sun
 };
