@@ -6,11 +6,11 @@
 
 namespace treefarm {
 
-/// Verdict after a guided pass that taught, from the efficiency of guiding times `mistrust`, the factor by which
-/// unguided passes were noisier than guided samples had predicted. In doubt passes stay guided: guiding loses at most
-/// its cost, unguided paths may lose without bound. If a tree is more efficient than `before`, the previous tree, the
-/// next is expected to gain as much again and is judged in its place. Trees of short passes improve in any case, so
-/// giving up needs stronger evidence there.
+/// Verdict after a guided pass that taught: compares the efficiency of guiding times `mistrust` with a bar. `mistrust`:
+/// factor by which unguided passes were noisier than guided samples had predicted. `before`: efficiency with the
+/// previous tree; if the efficiency has grown, the next tree is expected to gain the same factor again, and that
+/// expectation is judged. In doubt passes stay guided: guiding loses at most its cost, unguided paths may lose without
+/// bound. Trees of short passes improve in any case, so their bar is lower.
 Guiding judge_guiding(const PassPlan& pass, const GuidingEfficiency& efficiency, const GuidingEfficiency& before,
                       double mistrust);
 

@@ -24,7 +24,7 @@ struct Policy {
         double least_known = 4.0;
     } guiding;
 
-    /// How often next event samples emitters ("auto").
+    /// Share of vertices at which next event samples emitters ("auto").
     struct NextEvent {
         std::uint32_t counted_every = 8;
         double least_vertices = 512.0;

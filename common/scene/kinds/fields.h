@@ -27,36 +27,36 @@ namespace treefarm {
 ///
 /// of an emitter:
 ///
-///     light(name, Rgb&, ColorInput& or float&)    how strongly it shines, or a factor on that: at least 0
+///     light(name, Rgb&, ColorInput& or float&)    emission, or a factor on it, at least 0
 ///     position(Vec3&)                             in the scene
 ///     direction(Vec3&)                            of unit length
-///     value(float&)                               any other number, which a rule speaks of
+///     value(float&)                               any other number, checked by a rule
 ///     texture(std::int32_t&)                      index of a texture that light is multiplied by, or kNone
 ///     image(std::int32_t&)                        index of an image of three channels
-///     shape(std::int32_t&)                        index of the shape that shines
-///     rule(bool holds, what, cure)                a condition on values named before, and the words where it does not
+///     shape(std::int32_t&)                        index of the emitting shape
+///     rule(bool holds, what, cure)                a condition on values named before; fault and cure
 ///
 /// of a shape:
 ///
-///     point(name, Vec3&)                          a place
-///     offset(name, Vec3&)                         from one place to another
+///     point(name, Vec3&)                          a point
+///     offset(name, Vec3&)                         a vector between points
 ///     axis(name, Vec3&)                           of unit length
 ///     radius(float&)                              above 0
-///     rule(bool holds, what, cure)                as of an emitter; the words go on from "the shape"
-///     group(std::int32_t&)                        index of a group of shapes, which this one places
+///     rule(bool holds, what, cure)                as of an emitter; `what` continues "the shape"
+///     group(std::int32_t&)                        index of the group of shapes that this one instances
 ///     transform(Imath::M44f&)                     affine, and can be inverted
-///     vertices(std::vector<Vec3>&)                places
+///     vertices(std::vector<Vec3>&)                points
 ///     per_vertex(name, std::vector<Vec2 or Vec3>&)  one for each of the vertices, or none at all
 ///     triangles(std::vector<std::uint32_t>&)      three indices of vertices for each
-///     attributes(std::vector<MeshAttribute>&)     what textures take from vertices and triangles
+///     attributes(std::vector<MeshAttribute>&)     values for textures at vertices or triangles
 ///
 /// of a texture:
 ///
 ///     image(std::int32_t&)                        index of an image
 ///     choice(name, Enum&, last)                   as of a material
 ///     color(name, Rgb&)                           a finite colour
-///     coordinates(UvTransform&)                   what texture coordinates go through
-///     mesh_attribute(std::string&)                name of what it takes from the mesh that it is looked up on
+///     coordinates(UvTransform&)                   transform of texture coordinates
+///     mesh_attribute(std::string&)                name of the attribute of the mesh that it shows
 ///
 /// Names are words for messages: "specular reflectance".
 

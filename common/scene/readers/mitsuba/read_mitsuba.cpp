@@ -48,7 +48,7 @@ SceneReading read(const SceneDocument& document, Diagnostics diagnostics, const 
         if (is_used(shape)) diagnostics.attempt([&] { shapes.read(*shape.object); });
     for (const Child& emitter : root.children("emitter"))
         diagnostics.attempt([&] { read_emitter(*emitter.object, scene, materials.textures(), document, diagnostics); });
-    // How Mitsuba builds its hierarchy does not change the image.
+    // Options of Mitsuba's hierarchy do not change the image.
     root.ignore_prefix("kd_");
     root.ignore({"allow_thread_reordering", "compact_acceleration_structures"});
     if (const char* robust = "embree_use_robust_intersections"; root.has(robust))

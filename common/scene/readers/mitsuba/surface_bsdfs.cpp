@@ -175,7 +175,7 @@ class SurfaceReader {
         principled.clearcoat = number("clearcoat", 0.0f);
         principled.clearcoat_gloss = number("clearcoat_gloss", 0.0f);
         principled.eta = principled_eta(principled.transmits());
-        // How directions are drawn does not change the image.
+        // The sampling of directions does not change the image.
         properties_.ignore(
             {"main_specular_sampling_rate", "clearcoat_sampling_rate", "diffuse_reflectance_sampling_rate"});
         return principled;
@@ -193,7 +193,7 @@ class SurfaceReader {
         thin.flatness = number("flatness", 0.0f);
         thin.diff_trans = number("diff_trans", 0.0f);
         thin.eta = number("eta", 1.5f);
-        // How directions are drawn does not change the image.
+        // The sampling of directions does not change the image.
         properties_.ignore({"specular_reflectance_sampling_rate", "specular_transmittance_sampling_rate",
                             "diffuse_reflectance_sampling_rate", "diffuse_transmittance_sampling_rate"});
         return thin;
@@ -315,7 +315,7 @@ class SurfaceReader {
         } else {
             roughness.alpha_u = roughness.alpha_v = alpha("alpha", 0.1f);
         }
-        // How directions are drawn does not change the image.
+        // The sampling of directions does not change the image.
         properties_.ignore({"sample_visible"});
         return roughness;
     }
