@@ -19,7 +19,7 @@ struct ImageLayer {
         single,   ///< any single channel: Y, Z, A...
     };
     Kind kind = Kind::colour;
-    std::vector<std::size_t> channels;  ///< in that order
+    std::vector<std::size_t> channels;  ///< indices of the channels, in the order of `kind`
 };
 
 /// Names of an image's layers; "" for channels without a dot.

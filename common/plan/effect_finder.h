@@ -36,7 +36,7 @@ class EffectFinder {
         return called_by(scene_.materials, what,
                          [&](const Material& m, std::size_t i) { return used_[i] && test(own_traits(m)); });
     }
-    /// On if a kind in use declares the effect as its own.
+    /// State of an effect that kinds declare as their own: on if such a kind is in use.
     Effect kind(EffectFamily family, std::string_view effect) const;
 
     Effect next_event() const;

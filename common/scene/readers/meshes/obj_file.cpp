@@ -177,8 +177,8 @@ class Reader {
             add(a, b, c);
     }
 
-    /// Refuses a polygon with a vertex that is not defined yet: cutting it needs the positions. Whether the vertex
-    /// follows, the rest of the file tells.
+    /// Refuses a polygon with a vertex that is not defined yet, since cutting it needs the positions. The cure depends
+    /// on whether the rest of the file defines the vertex.
     void refuse_late_vertex(const Location& where) {
         std::size_t count = obj_.positions.size();
         std::string_view keyword;
