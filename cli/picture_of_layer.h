@@ -9,36 +9,35 @@
 
 namespace treefarm {
 
-/// The channels of one layer of an EXR image, by what they stand for.
+/// The channels of one layer of an EXR image, by meaning.
 struct ImageLayer {
     enum class Kind {
         colour,   ///< R, G, B
         vector,   ///< X, Y, Z
         uv,       ///< U, V
-        numbers,  ///< I: of objects
-        single,   ///< any one channel: Y, Z, A...
+        numbers,  ///< I: indices of objects
+        single,   ///< any single channel: Y, Z, A...
     };
     Kind kind = Kind::colour;
-    std::vector<std::size_t> channels;  ///< in that order
+    std::vector<std::size_t> channels;  ///< indices of the channels, in the order of `kind`
 };
 
-/// The layers of an image: "" for channels without a dot.
+/// Names of an image's layers; "" for channels without a dot.
 std::vector<std::string> layer_names(const Image& image);
 
-/// A layer of an image that was read from `file`. Throws InputError that lists the layers where there is none of that
-/// name, or none that can be shown.
+/// A layer of an image that was read from `file`. Throws InputError with a list of the layers if it does not exist or
+/// cannot be shown.
 ImageLayer find_image_layer(const Image& image, const std::string& layer, const std::string& file);
 
-/// How a layer becomes a picture.
+/// Settings of converting a layer to a picture.
 struct PictureOptions {
     float exposure = 0;  ///< stops: colours are multiplied by 2^exposure
     ToneMap tonemap = ToneMap::srgb;
 };
 
-/// A layer as linear colours of a screen: colours by exposure and tone map; vectors of at most length 1 as 0.5 + 0.5 v,
-/// longer ones and single channels stretched from their least to their greatest value, alpha as it is, uv by their
-/// fractions, numbers each in a colour of its own. Nothing (0) is black in all of them. `range` says what was
-/// stretched.
+/// A layer as linear colours for a screen: colours by exposure and tone map; vectors up to length 1 as 0.5 + 0.5 v;
+/// longer vectors and single channels scaled from their range to 0.1 to 1; alpha as it is; uv by fractional parts;
+/// indices in distinct colours. Zero is always black. `range` receives the ranges that were scaled.
 RgbImage picture_of_layer(const Image& image, const ImageLayer& layer, const PictureOptions& options,
                           std::string& range);
 

@@ -12,9 +12,9 @@ namespace treefarm {
 
 using Log = std::shared_ptr<spdlog::logger>;
 
-/// A log that writes to the console, as much as `loudness` says, and, where `file` is not empty, everything to a file:
-/// in a thread of its own, that has written all when the log ends.
-/// `who` ("treefarm", "worker 3") stands before warnings and errors; plain information stands alone.
+/// Log to the console, limited by `verbosity`, and, if `file` is not empty, completely to a file. The file is written
+/// by a thread of its own, which has written everything when the log is destroyed. `who` ("treefarm", "worker 3")
+/// prefixes warnings and errors, not plain information.
 Log make_log(const std::string& who, const std::filesystem::path& file, const ConsolePtr& console, Verbosity verbosity);
 
 }  // namespace treefarm

@@ -6,11 +6,11 @@
 
 namespace treefarm {
 
-/// Every constant that was tuned on scenes rather than derived, by what it decides: docs/generated/policy.md tells
-/// what each means and where it comes from. A render records them (resolved.toml).
-/// This header includes nothing of ours, so that every room may include it.
+/// All constants that were tuned on scenes instead of derived, grouped by the decision that they are for.
+/// docs/generated/policy.md explains each and gives its source. A render records them in resolved.toml. This header
+/// includes no other of the project, so that every module may include it.
 struct Policy {
-    /// When paths are unguided ("auto"), by what guided samples tell of unguided ones.
+    /// Whether paths are guided ("auto"), judged by what guided samples estimate for unguided ones.
     struct Guiding {
         std::uint32_t least_judged_spp = 4;
         double ray_cost = 1.4;
@@ -24,7 +24,7 @@ struct Policy {
         double least_known = 4.0;
     } guiding;
 
-    /// How often next event samples emitters ("auto").
+    /// Share of vertices at which next event samples emitters ("auto").
     struct NextEvent {
         std::uint32_t counted_every = 8;
         double least_vertices = 512.0;
@@ -37,13 +37,13 @@ struct Policy {
         double least_rest = 0.02;
     } next_event;
 
-    /// The light about a pixel that its noise is judged by.
+    /// Light level around a pixel, in relation to which noise is measured.
     struct Levels {
         double least = 0.1;
         std::size_t block = 8;
     } levels;
 
-    /// Splitting: as how many paths one goes on, and when that is given up.
+    /// Splitting: number of paths that one splits into, and when splitting is given up.
     struct Splitting {
         int usual = 8;
         float least_share = 1.4f;
@@ -68,7 +68,7 @@ struct Policy {
         float unlearned = 0.2f;
     } light_subpaths;
 
-    /// Russian roulette, candidates and glass that the camera sees.
+    /// Russian roulette, candidates, and glass seen by the camera.
     struct Walk {
         float adjoint_window = 4.0f;
         float adjoint_least = 0.5f;
@@ -82,7 +82,7 @@ struct Policy {
         float split_least = 0x1p-12f;
     } walk;
 
-    /// The tree's learning and growth.
+    /// Learning and growth of the tree.
     struct Learning {
         double spatial_threshold = 2000.0;
         double product_cells = 0.5;
@@ -100,7 +100,7 @@ struct Policy {
         double kept_evidence = 0.5;
     } learning;
 
-    /// Guides of even regions and strata of directions.
+    /// Guides with even regions and strata of directions.
     struct Grids {
         int halvings = 12;
         int table_halvings = 15;
@@ -108,7 +108,7 @@ struct Policy {
         double table_floor = 0.02;
     } grids;
 
-    /// How lamps are cut, and the tree of them that next event chooses by.
+    /// Division of lamps, and the tree of them by which next event chooses.
     struct Lights {
         float least_cut = 1.0f / 32;
         std::size_t few_triangles = 16;
@@ -117,7 +117,7 @@ struct Policy {
         std::size_t far_lanes = 4;
     } lights;
 
-    /// How bright a splat is expected to be.
+    /// Expected brightness of splats.
     struct Splats {
         double nearest = 0x1p-16;
         double alike = 16.0;
@@ -133,7 +133,7 @@ struct Policy {
         double kickstart_weight = 0.5;
     } schedule;
 
-    /// How work is handed out: no influence on the image.
+    /// Distribution of work: no influence on the image.
     struct Farm {
         double half_life = 2.0;
         double most_seconds = 2.0;
@@ -142,7 +142,7 @@ struct Policy {
         double copy_ratio = 1.0;
     } farm;
 
-    /// How renders end that have seconds or an error for a budget.
+    /// End of renders with a budget of seconds or error.
     struct Budget {
         double time_tolerance = 0.05;
         double least_tolerance = 1.0;
@@ -159,7 +159,7 @@ struct Policy {
         double most_late = 0.75;
     } budget;
 
-    /// The progress that trees to come will bring.
+    /// Progress expected from further trees.
     struct Forecast {
         double learned = 0.55;
         double noisy = 0.1;
@@ -172,7 +172,7 @@ struct Policy {
         double recording_share = 0.12;
     } forecast;
 
-    /// What is told of few samples that carry much of an image's noise.
+    /// Reports on few samples that carry much of an image's noise.
     struct Tails {
         double outlier = 0.25;
         double noise_part = 0.4;

@@ -17,7 +17,7 @@ std::vector<float> emission_emphasis(const EmissionSums& sums) {
         squares += static_cast<double>(sums.squares[i]);
     }
     if (sums.paths.size() < 2 || !(squares > 0)) return {};
-    // An emitter of which little is known is taken to be as all are.
+    // An emitter with few paths is assumed to be like the average.
     const double prior = kPolicy.light_subpaths.prior_paths, usual = squares / paths;
     std::vector<float> emphasis;
     emphasis.reserve(sums.paths.size());

@@ -125,7 +125,7 @@ class RenderRun {
                    size_text(film), budget_text(passes(state.history)), directory_.path().string());
         if (request_.resumed)
             log_->info("{} passes with {} spp are done{}, {} of rendering", state.reports.size(), state.spp(),
-                       state.partial ? ", one is begun" : "",
+                       state.partial ? ", one is partly done" : "",
                        duration_text(state.partial ? state.partial->run_seconds : state.history.seconds));
         if (request_.resumed && job().farm.checkpoint_seconds == 0)
             log_->warn("no checkpoints (farm.checkpoint_seconds = 0): that of {} spp stays until the render is done",
@@ -301,7 +301,7 @@ class RenderRun {
         std::string text;
         if (result_.spp > 0) text = fmt::format("kept the {} spp of finished passes", result_.spp);
         if (share > 0)
-            text += fmt::format("{}{:.0f} % of the pass in hand", text.empty() ? "kept " : ", and ",
+            text += fmt::format("{}{:.0f} % of the unfinished pass", text.empty() ? "kept " : ", and ",
                                 std::floor(100 * share));
         if (goes_on && !text.empty())
             text += "; go on with: treefarm resume " + shell_quoted(directory_.path().string());

@@ -41,7 +41,7 @@ GridModel GridLearner::learn(const GridModel& model, const CellSums& sums, const
         if (settings.with_flux)
             next.flux[r] = learned_flux(recorded, sums.counts()[r], model.quantum_exponent[r], next.flux[r]);
         next.quantum_exponent[r] = learned_exponent(recorded, sums.counts()[r], model.quantum_exponent[r]);
-        // Least variance has probabilities in proportion to the root of the second moment.
+        // Variance is least if probabilities are proportional to the root of the second moment.
         if (settings.target == GuidingTarget::variance)
             for (double& e : energy)
                 e = std::sqrt(e);

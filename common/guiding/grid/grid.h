@@ -12,9 +12,9 @@
 
 namespace treefarm {
 
-/// The simplest guide that can be, to read first and to copy from (docs/use/write-a-guide.md): regions of a fixed grid,
-/// in each the strata of directions (strata.h), sampled in proportion to the radiance that the pass before recorded
-/// there, but for a part that all share alike, however dark (grids.even_part).
+/// The simplest guide, to be read first and copied (docs/use/write-a-guide.md): regions of a fixed grid, each with
+/// fixed strata of directions (strata.h). A stratum's probability is proportional to the radiance that the previous
+/// pass recorded there, plus an equal part for all (grids.even_part), so that dark strata are sampled, too.
 struct GridModel : RegionModel {
     std::vector<std::uint32_t> mass;  ///< per region kStrata probabilities in Z-order, times 2^kMassBits, their sum
     bool operator==(const GridModel&) const = default;
@@ -29,10 +29,10 @@ class GridSampler : public RegionSampler {
         return strata_.sample(region, random);
     }
     float pdf(std::uint32_t region, std::uint32_t code) const { return strata_.pdf(region, code); }
-    /// Mean radiance that the region has learned of this direction; negative where it has learned nothing.
+    /// Mean radiance learned for this direction in the region; negative if nothing was learned.
     float radiance(std::uint32_t region, std::uint32_t code) const;
 
-    // Where records go: CellAccumulator.
+    // Cells of records, for CellAccumulator.
     std::uint32_t cell_count() const { return strata_.cell_count(); }
     std::uint32_t cell(std::uint32_t region, std::uint32_t code) const { return StrataTable::cell(region, code); }
     std::uint32_t cell_side(std::uint32_t, std::uint32_t) const { return StrataTable::cell_side(); }
@@ -45,13 +45,13 @@ class GridSampler : public RegionSampler {
     StrataTable strata_;
 };
 
-/// The coordinator's memory: none of directions, only what all guides share.
+/// Learner of the grid. It remembers nothing about directions, only the shared parts of all guides.
 class GridLearner {
   public:
     GridModel learn(const GridModel& model, const CellSums& sums, const RefineSettings& settings, bool learn_mixture,
                     RefineReport& report);
 
-    /// Lists what it remembers, for a checkpoint.
+    /// Archives the state, for a checkpoint.
     template <class Archive>
     void serialize(Archive& archive) {
         archive(lights_, next_event_, mixture_);
@@ -63,7 +63,7 @@ class GridLearner {
     MixtureLearner mixture_;
 };
 
-/// The grid among the guides (guides.h).
+/// The grid as a Guide (guides.h).
 struct GridGuide {
     using Model = GridModel;
     using Sampler = GridSampler;

@@ -13,14 +13,14 @@
 
 namespace treefarm {
 
-/// Q-learning of light (Dahm and Keller 2017, "Learning light transport the reinforced way"): a table of radiances
-/// Q(region, stratum), the regions of a fixed grid and strata of directions (strata.h). A visit brings what its
-/// direction met at once, and for the rest what the table says of the next vertex (guiding.bootstrap, 1 here:
-/// Cavus 2020, eq. 2.27, by one sample of the integral); Q is the mean of visits, those of earlier passes at half their
-/// weight each time. Strata are sampled in proportion to Q, but for a floor (grids.table_floor): what was never sampled
-/// would never be learned.
+/// Q-learning of light (Dahm and Keller 2017, "Learning light transport the reinforced way"): a table Q(region,
+/// stratum) of radiances over the regions of a fixed grid and strata of directions (strata.h). A visit adds the
+/// emission met in its direction plus the table's estimate at the next vertex (guiding.bootstrap, 1 here: Cavus 2020,
+/// eq. 2.27, with one sample of the integral). Q is the mean of the visits; the weight of earlier passes halves with
+/// each pass. A stratum's probability is proportional to Q, but at least a floor (grids.table_floor), since a stratum
+/// that is never sampled is never learned.
 struct QTableModel : RegionModel {
-    std::vector<float> q;  ///< per region kStrata radiances, averaged over channels, >= 0 and finite
+    std::vector<float> q;  ///< per region kStrata radiances, mean of the channels, >= 0 and finite
     bool operator==(const QTableModel&) const = default;
 };
 
@@ -35,10 +35,10 @@ class QTableSampler : public RegionSampler {
         return strata_.sample(region, random);
     }
     float pdf(std::uint32_t region, std::uint32_t code) const { return strata_.pdf(region, code); }
-    /// Q. What was never visited is 0, as the method begins.
+    /// Value Q; 0 for strata without visits, the initial value of the method.
     float radiance(std::uint32_t region, std::uint32_t code) const { return q_[StrataTable::cell(region, code)]; }
 
-    // Where records go: CellAccumulator.
+    // Cells of records, for CellAccumulator.
     std::uint32_t cell_count() const { return strata_.cell_count(); }
     std::uint32_t cell(std::uint32_t region, std::uint32_t code) const { return StrataTable::cell(region, code); }
     std::uint32_t cell_side(std::uint32_t, std::uint32_t) const { return StrataTable::cell_side(); }
@@ -52,13 +52,13 @@ class QTableSampler : public RegionSampler {
     std::vector<float> q_;
 };
 
-/// The coordinator's memory: how many visits stand behind each Q.
+/// Learner of the table: number of visits behind each Q.
 class QTableLearner {
   public:
     QTableModel learn(const QTableModel& model, const CellSums& sums, const RefineSettings& settings,
                       bool learn_mixture, RefineReport& report);
 
-    /// Lists what it remembers, for a checkpoint.
+    /// Archives the state, for a checkpoint.
     template <class Archive>
     void serialize(Archive& archive) {
         archive(visits_, lights_, next_event_, mixture_);
@@ -71,7 +71,7 @@ class QTableLearner {
     MixtureLearner mixture_;
 };
 
-/// The table among the guides (guides.h).
+/// The table as a Guide (guides.h).
 struct QTableGuide {
     using Model = QTableModel;
     using Sampler = QTableSampler;

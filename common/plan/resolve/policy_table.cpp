@@ -266,11 +266,11 @@ constexpr std::array kEntries = {
     entry("tails.least_pixels", kTails.least_pixels, "but not of smaller images", kGuess),
 };
 
-/// Work over that with the constant as it is, in the mean over six scenes: where it was measured.
+/// Measured sensitivity: work over that with the constant unchanged, mean over six scenes.
 struct Sensitivity {
     std::string_view name;
     const char* at_half_and_twice;
-    const char* when;  ///< the page of bench/log, by its date, and what has changed since
+    const char* when;  ///< date of the page in bench/log, and what has changed since
 };
 
 constexpr const char *kFirst = "2026-11-26", *kSecond = "2026-11-28";  // bench/log/{this}-policy.md

@@ -9,16 +9,16 @@
 
 namespace treefarm {
 
-/// One constant of policy.h, explained.
+/// Documentation of a constant of policy.h.
 struct PolicyEntry {
     const char* name;  ///< "guiding.giving_up"
     double value;
-    bool single;           ///< a float: its shortest text is shorter than the double's
-    const char* meaning;   ///< with the unit
-    const char* evidence;  ///< where it comes from: a publication, a page of bench/log, or that it is a guess
+    bool single;           ///< float, whose shortest text is shorter than that of a double
+    const char* meaning;   ///< explanation with the unit
+    const char* evidence;  ///< source: a publication, a page of bench/log, or a guess
 };
 
-/// The value, as resolved.toml and the docs have it.
+/// The value as text, for resolved.toml and the docs.
 std::string value_text(const PolicyEntry& entry);
 
 /// Every constant of policy.h, in its order.
@@ -27,18 +27,18 @@ std::span<const PolicyEntry> policy_table();
 /// The section [policy] of resolved.toml.
 std::string write_policy();
 
-/// What its constants begin with among settings: "policy.guiding.giving_up".
+/// Prefix of the constants among settings: "policy.guiding.giving_up".
 inline constexpr char kPolicyPrefix[] = "policy.";
 
-/// What to do with a resolved.toml that this build cannot repeat.
+/// Cure for a resolved.toml that this build cannot repeat.
 inline constexpr char kResolvedCure[] =
     "render job.toml instead, which leaves it to the program, or use the build that wrote it";
 
-/// Throws InputError where the settings of a resolved.toml lack a constant, have one that this build has not, or give
-/// one another value. `file`: for what is missing.
+/// Throws InputError if the settings of a resolved.toml lack a constant, have an unknown one, or give one another
+/// value. `file`: location for missing constants.
 void check_policy(std::span<const Setting> settings, const Location& file);
 
-/// A Markdown table of all constants, for docs/.
+/// Markdown table of all constants, for docs/.
 std::string policy_documentation();
 
 }  // namespace treefarm

@@ -12,12 +12,12 @@
 namespace treefarm {
 namespace {
 
-/// Bits by which the quantum is finer than a splat as it is expected.
+/// Quantum over the expected size of a splat.
 constexpr double kFiner = 0x1p-20;
-/// splat_exponent() has so many of them.
+/// Quanta in the value that splat_exponent() expects.
 constexpr double kOfExponent = 0x1p10;
 
-/// Camera importance at the middle of the film, per area that faces the camera at this distance.
+/// Camera importance at the middle of the film, per area facing the camera at this distance.
 double importance(const Camera& camera, double distance2) {
     if (camera.panoramic) return 1 / (2 * M_PI * M_PI * distance2);
     const Imath::V3d middle = Imath::V3d(camera.corner) + (Imath::V3d(camera.across) + Imath::V3d(camera.down)) * 0.5;
@@ -27,8 +27,8 @@ double importance(const Camera& camera, double distance2) {
     return length2 * std::sqrt(length2) / std::abs(middle.dot(n)) / distance2;
 }
 
-/// Light falls near its lamp: squared distance from the lens at which that of an emitter is seen, at most that of the
-/// scene, and at least `nearest` of it.
+/// Squared distance from the lens at which an emitter's light is seen. Light falls near its lamp: the distance is the
+/// lamp's, at most that of the scene, at least `nearest` of it.
 double seen_from(const Scene& scene, const Box3& lamp, double distance2, double nearest) {
     if (lamp.isEmpty()) return distance2;
     const Imath::V3d half = (Imath::V3d(lamp.max) - Imath::V3d(lamp.min)) * 0.5;
@@ -36,8 +36,8 @@ double seen_from(const Scene& scene, const Box3& lamp, double distance2, double 
     return std::clamp(to_lamp.dot(to_lamp) + half.dot(half), nearest * distance2, distance2);
 }
 
-/// Watts that the emitters send into a ball of radius R about the surfaces, mean of the channels, by what each says of
-/// the radiance that it brings there, each times the camera's importance where it is seen.
+/// Power in watts that the emitters send into a ball of radius R around the surfaces, mean of the channels, from each
+/// emitter's radiance there, times the camera's importance where it is seen.
 double power_seen(const Scene& scene, double radius2, double distance2, double nearest) {
     const LitScene lit{static_cast<float>(radius2), scene.images};
     double sum = 0;
@@ -54,7 +54,7 @@ double power_seen(const Scene& scene, double radius2, double distance2, double n
                     lamp = own_box(shape);
                 } else if constexpr (Kind::kTraits.type == LightType::delta) {
                     const auto cone = kind.cone();
-                    power = (cone ? 4 * M_PI : M_PI) * scale * radius2;  // a point's intensity, or parallel light
+                    power = (cone ? 4 * M_PI : M_PI) * scale * radius2;  // intensity of a point, or parallel light
                     if (cone) lamp.extendBy(cone->apex);
                 } else {
                     power = M_PI * M_PI * scale * radius2;
@@ -76,8 +76,8 @@ std::int16_t usual_splat_exponent(const Scene& scene) {
     const double distance2 = std::max(to_scene.dot(to_scene), radius2);
     const double per_window = double(scene.film.whole_width()) * double(scene.film.whole_height()) /
                               static_cast<double>(scene.film.pixel_count());
-    // A lamp at the lens may light what is far: so near a one is not believed. A coarser quantum is only needed where
-    // splats would come near its caps, 2^30 times the usual one; what is left of these is for rare paths.
+    // A lamp at the lens may light far surfaces, so a very small distance is not trusted. A coarser quantum is needed
+    // only where splats would come near their cap, 2^30 times the usual one; the margin up to it is for rare paths.
     const double power = std::max(power_seen(scene, radius2, distance2, 1.0),
                                   power_seen(scene, radius2, distance2, kPolicy.splats.nearest) / kPolicy.splats.alike);
     const double splat = power / (2 * M_PI) * per_window;

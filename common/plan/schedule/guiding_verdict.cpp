@@ -10,7 +10,7 @@ namespace treefarm {
 
 namespace {
 
-/// The worth below which guiding is given up: lower after short passes, whose trees still get much better.
+/// Efficiency below which guiding is given up: lower after short passes, whose trees still improve much.
 double bar(std::uint32_t spp) {
     constexpr const auto& kOf = kPolicy.guiding;
     const double settled = std::log2(static_cast<double>(spp) / kOf.least_settled_spp) /

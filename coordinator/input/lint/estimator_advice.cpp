@@ -8,8 +8,8 @@
 namespace treefarm {
 namespace {
 
-// From where on next event hardly finds the lamps: chosen so that scenes of ours get what was ahead of the other, water
-// apart (bench/log/2026-11-27-ends.md).
+// Thresholds above which next event hardly finds the lamps, chosen such that the project's scenes get the estimator
+// that was better, except for water (bench/log/2026-11-27-ends.md).
 constexpr double kMostlyHidden = 0.5, kOftenBehindGlass = 0.25, kMostlyFromInfinity = 0.5;
 
 constexpr const char* kPrice = "; a sample takes two to six times that of path";
