@@ -27,6 +27,9 @@ function(treefarm_precompiled NAME)
 endfunction()
 treefarm_precompiled(tf_precompiled)
 
+# Tests whose files each have helpers of the same names: by themselves.
+set(TREEFARM_FILE_BY_FILE statistical_test stability_test mpi_test)
+
 # treefarm_targets(OUT DIRECTORY): libraries and programs of a folder and those below it.
 function(treefarm_targets OUT DIRECTORY)
     get_property(found DIRECTORY ${DIRECTORY} PROPERTY BUILDSYSTEM_TARGETS)
@@ -59,7 +62,10 @@ function(treefarm_compile_all)
         endif()
         if(NOT target IN_LIST TREEFARM_HOT AND NOT folder STREQUAL "bench")
             target_compile_options(${target} PRIVATE ${cold_level})
-            set_target_properties(${target} PROPERTIES UNITY_BUILD ${TREEFARM_UNITY} UNITY_BUILD_BATCH_SIZE ${TREEFARM_UNITY_FILES})
+            if(NOT target IN_LIST TREEFARM_FILE_BY_FILE)
+                set_target_properties(${target} PROPERTIES UNITY_BUILD ${TREEFARM_UNITY}
+                                      UNITY_BUILD_BATCH_SIZE ${TREEFARM_UNITY_FILES})
+            endif()
         endif()
     endforeach()
 endfunction()
