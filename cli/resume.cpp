@@ -13,7 +13,7 @@ namespace treefarm {
 
 namespace {
 
-/// treefarm resume RUN_DIR
+/// Options of treefarm resume RUN_DIR
 struct ResumeOptions {
     std::string run;
     RenderOptions render;  ///< of the render that goes on

@@ -6,13 +6,13 @@
 
 namespace treefarm {
 
-/// How long a probe usually takes, seconds of rendering.
+/// Default length of a probe, in seconds of rendering.
 inline constexpr double kProbeSeconds = 5;
 
 /// The first passes of a render.
 struct Probe {
-    RenderHistory state;    ///< after them
-    bool complete = false;  ///< they are all that the job asks for
+    RenderHistory state;    ///< state after them
+    bool complete = false;  ///< they are all passes of the job
     bool interrupted = false;
     unsigned threads = 0;  ///< of the worker, if whoever has it says so
 };

@@ -55,7 +55,7 @@ void check_budget_keys(const RenderInput& input, RenderContent& content) {
     }
 }
 
-/// The passes of a schedule file instead of the job's budget.
+/// Sets the passes of a schedule file in place of the job's budget.
 void replay(const std::string& file, RenderContent& content) {
     content.schedule = parse_schedule(read_settings_text(file, "schedule"), file, resolve(content.job, content.scene));
     content.job.budget.seconds = content.job.budget.error = 0;
@@ -126,7 +126,7 @@ RenderRequest read_request(const RenderInput& input, const RenderOrigin& origin)
     const std::vector<Setting> budget = budget_layer(input.budget);
     layer.insert(layer.end(), budget.begin(), budget.end());
 
-    Job where;  // which scene, and how to read it, stands in the upper layers
+    Job where;  // the upper layers name the scene, and how to read it
     apply_layer(where, file_layer);
     apply_layer(where, layer);
     if (where.scene.file.empty())
@@ -139,7 +139,7 @@ RenderRequest read_request(const RenderInput& input, const RenderOrigin& origin)
     content.job = merged_job(loaded, {file_layer, layer});
     check_job(content.job);
     check_budget_keys(input, content);
-    // --set scene.file=... is relative to the current folder, a name in job.toml to that of job.toml.
+    // --set scene.file=... is relative to the current folder, a name in job.toml to that file's folder.
     content.job.scene.file = std::filesystem::absolute(content.job.scene.file).lexically_normal().string();
     content.scene = std::move(loaded.scene);
     if (const std::string schedule = schedule_of(input, file, layer); !schedule.empty()) replay(schedule, content);
@@ -156,7 +156,7 @@ RenderRequest read_request(const RenderInput& input, const RenderOrigin& origin)
         content.warnings.push_back(
             std::to_string(content.job.budget.spp) + " spp become " + std::to_string(spp) +
             ": passes take multiples of guiding.spp_unit = " + std::to_string(content.job.guiding.spp_unit));
-    content.plan.warnings = content.warnings;  // what the reader had to replace belongs to the plan, too
+    content.plan.warnings = content.warnings;  // replacements by the reader belong to the plan, too
     return request;
 }
 

@@ -27,7 +27,7 @@ struct RenderInput {
     std::vector<Setting> settings{};  ///< keys of a job, over those of the scene and the job file
     RenderBudget budget{};            ///< over all of them
     bool reads_model = true;          ///< guiding.initial_model is to be read
-    bool holds_to_scene = true;       ///< the scene has to be that of a resolved.toml
+    bool holds_to_scene = true;       ///< the scene must be that of the resolved.toml
 };
 
 /// Reads job and scene. The job's layers, each over the one before: defaults, the scene file's integrator and sampler,

@@ -19,7 +19,7 @@ struct RenderOutcome {
     std::filesystem::path folder;  ///< the run directory
     RenderResult result;           ///< image, its error, and the reports of the finished passes
     std::set<int> left_peers;      ///< workers that left in order
-    std::set<int> lost_peers;      ///< workers that were given up, now or in an earlier job, and are not back
+    std::set<int> lost_peers;      ///< workers lost in this job or an earlier one that are not back
 };
 
 /// Renders a request to its end: run directory, workers, passes, files. What goes wrong after the run directory exists

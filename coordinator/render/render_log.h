@@ -27,7 +27,7 @@ class RenderLog {
     /// not finished, 0 to 1. `has_previous`: an earlier run lies aside in the folder.
     void tell_end(const RunEnd& end, const RenderResult& result, bool continued, double part, bool has_previous);
 
-    /// The options that make the passes known to --debug-sample, and the checkpoint.
+    /// Options that tell --debug-sample the passes, and the checkpoint.
     std::string replay_options() const;
 
   private:

@@ -26,7 +26,7 @@ struct RenderContent {
     EffectPlan plan;                    ///< of both
     std::vector<PassPlan> schedule;     ///< these passes; empty: those of the job's budget
     std::vector<std::string> warnings;  ///< of the readers, for the log
-    std::vector<std::string> notes;     ///< of the readers, of what is no fault
+    std::vector<std::string> notes;     ///< of the readers, other than faults
 };
 
 /// What a render begins with. Without either: the guide's first model, and no samples.
@@ -39,7 +39,7 @@ struct RenderStart {
 struct RenderStorage {
     bool overwrite = false;        ///< an earlier run in the folder may be replaced
     bool checkpoints = true;       ///< the render can be resumed; false: it is one of many that are short
-    std::string display_server{};  ///< HOST:PORT of a viewer that speaks tev's protocol; "": none
+    std::string display_server{};  ///< HOST:PORT of a viewer with tev's protocol; "": none
 };
 
 /// Who asked for a render, with which program: what its files say of its origin.

@@ -9,20 +9,20 @@
 
 namespace treefarm {
 
-/// How a series of renders was started, and where it speaks.
+/// Command and console of a series of renders.
 struct SeriesContext {
     RenderOrigin origin;
     RenderWorkers workers;    ///< at the other end of a channel
     RenderObserver observer;  ///< of each render
     ConsolePtr console;       ///< for how far the series is
     Log log;                  ///< of the series
-    bool overwrite = false;   ///< other results that its folder holds
+    bool overwrite = false;   ///< other results in its folder may be replaced
 };
 
 /// The observer, and how far the render is on a console; both outlive it.
 RenderObserver shown_by(Progress& progress, const RenderObserver& observer);
 
-/// Renders one after another in one allocation: workers stay, and are told to join the next one.
+/// Series of renders within one allocation: workers stay, and are told to join the next job.
 class RenderSeries {
   public:
     explicit RenderSeries(const SeriesContext& context) : context_(context) {}
@@ -32,9 +32,9 @@ class RenderSeries {
     RenderOutcome render(RenderRequest& request, const std::filesystem::path& folder, StatusFrame frame,
                          const decltype(RenderObserver::pass)& pass = {});
 
-    /// Workers that were given up and are not back.
+    /// Workers that were lost and are not back.
     const std::set<int>& lost_peers() const { return turn_.absent; }
-    /// Nobody is left to render with.
+    /// Whether no worker is left.
     bool has_lost_all() const;
 
   private:

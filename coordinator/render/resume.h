@@ -10,7 +10,7 @@
 
 namespace treefarm {
 
-/// Refuses what is no run directory, or not yet: throws InputError.
+/// Throws InputError if a folder is no run directory, or not yet.
 void check_run_folder(const std::filesystem::path& run);
 
 /// A request that continues the render in a run directory from its newest usable checkpoint. `input`: settings and
@@ -23,7 +23,7 @@ RenderRequest read_resumed(const std::filesystem::path& run, RenderInput input, 
 /// missing. Throws InputError where the folder holds a checkpoint of another render, and overwriting is not asked for.
 std::optional<RenderOutcome> go_on_in_folder(RenderRequest& request);
 
-/// The newest usable checkpoint of this very render in a run directory; nullptr where there is none.
+/// Newest usable checkpoint of this render in a run directory; nullptr if there is none.
 std::shared_ptr<LoadedCheckpoint> find_checkpoint(const std::filesystem::path& run, const RenderRequest& request);
 
 }  // namespace treefarm
