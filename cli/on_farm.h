@@ -48,10 +48,10 @@ struct Voice {
 };
 Voice make_voice(const LaunchEnvironment& launch, const FarmOptions& options);
 
-/// Only what goes wrong, and no status.
+/// Output of errors only, without a status line.
 Voice errors_only();
 
-/// A worker in this process. `threads`: 0: its processors.
+/// Worker in this process. `threads`: 0: its processors.
 LocalWorker local_worker(unsigned threads, const Voice& voice);
 
 /// Runs the task over all processes of the MPI job, or as coordinator and one worker in this process. Returns the exit

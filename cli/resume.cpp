@@ -16,7 +16,7 @@ namespace {
 /// Options of treefarm resume RUN_DIR
 struct ResumeOptions {
     std::string run;
-    RenderOptions render;  ///< of the render that goes on
+    RenderOptions render;  ///< of the resumed render
 };
 
 RenderRequest read(const ResumeOptions& options) {

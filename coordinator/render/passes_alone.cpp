@@ -34,8 +34,8 @@ RenderState nearest_state(const RenderRequest& request, const std::vector<PassPl
     return starting_state(request);
 }
 
-/// The model of a pass, which may decide on next event alone, learned by rendering the passes before it, but for those
-/// that a checkpoint knows.
+/// Model of a pass, learned by rendering the passes before it that the checkpoint lacks; it may only decide on next
+/// event.
 AnyModel learn_model(const RenderRequest& request, const std::vector<PassPlan>& plans, std::uint32_t pass,
                      const TellMessage& tell) {
     RenderState state = nearest_state(request, plans, pass);

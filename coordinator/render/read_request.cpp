@@ -20,7 +20,7 @@ namespace treefarm {
 
 namespace {
 
-/// A budget replaces whatever budget the job has; spp leaves no room for another.
+/// Settings of a budget, which replaces the job's; with spp no other budget is allowed.
 std::vector<Setting> budget_layer(const RenderBudget& budget) {
     const auto setting = [](const char* option, const char* key, std::string value) {
         return Setting{key, std::move(value), Location{option, 0, 0}};
@@ -39,7 +39,7 @@ std::vector<Setting> budget_layer(const RenderBudget& budget) {
     return layer;
 }
 
-/// A budget that a setting gives and another one makes void would be ignored in silence.
+/// Refuses budget keys of the settings that another budget overrides, which would be ignored without a message.
 void check_budget_keys(const RenderInput& input, RenderContent& content) {
     const Job::Budget& budget = content.job.budget;
     const char* const open = budget.seconds > 0 ? "budget.seconds" : budget.error > 0 ? "budget.error" : nullptr;
@@ -62,8 +62,7 @@ void replay(const std::string& file, RenderContent& content) {
     content.job.budget.spp = content.schedule.back().first_sample + content.schedule.back().spp;
 }
 
-/// Where the passes of a job file stand that has them listed, unless the input says how long to render. `above`: all
-/// its settings.
+/// Schedule file of a job file with listed passes, unless the input has a budget. `above`: all of its settings.
 std::string schedule_of(const RenderInput& input, const JobFile& file, const std::vector<Setting>& above) {
     const bool has_budget = std::any_of(above.begin(), above.end(), [](const Setting& s) {
         return s.key.starts_with("budget.") && s.key != "budget.strict";
@@ -85,7 +84,7 @@ std::string schedule_of(const RenderInput& input, const JobFile& file, const std
     return schedule.string();
 }
 
-/// What of the settings changes the scene: "-D width", or "".
+/// Setting that changes the scene: "-D width", or "".
 std::string scene_change(const std::vector<Setting>& settings) {
     constexpr std::string_view kDefine = "scene.defines.";
     for (const Setting& s : settings) {

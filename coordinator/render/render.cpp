@@ -152,7 +152,7 @@ class RenderRun {
         if (observer_.phase) observer_.phase(phase);
     }
 
-    /// Of the pass that came in last.
+    /// Finished fraction of the last pass.
     double part_of_pass() const {
         if (!farm_.has_pass()) return 0;
         return static_cast<double>(farm_.ledger().done()) / static_cast<double>(farm_.ledger().total());
@@ -194,7 +194,7 @@ class RenderRun {
     std::optional<GuestDoor> door_;
     std::size_t pass_count_ = 0;      ///< 0: not known
     const std::uint32_t spp_before_;  ///< of the resumed run
-    bool went_on_ = false;            ///< with that
+    bool went_on_ = false;            ///< it has resumed that run
     RenderResult result_;
 };
 

@@ -14,12 +14,12 @@ struct SeriesContext {
     RenderOrigin origin;
     RenderWorkers workers;    ///< at the other end of a channel
     RenderObserver observer;  ///< of each render
-    ConsolePtr console;       ///< for how far the series is
+    ConsolePtr console;       ///< for the progress of the series
     Log log;                  ///< of the series
     bool overwrite = false;   ///< other results in its folder may be replaced
 };
 
-/// The observer, and how far the render is on a console; both outlive it.
+/// Observer that also shows the render's progress on a console; both arguments must outlive it.
 RenderObserver shown_by(Progress& progress, const RenderObserver& observer);
 
 /// Series of renders within one allocation: workers stay, and are told to join the next job.
@@ -27,8 +27,8 @@ class RenderSeries {
   public:
     explicit RenderSeries(const SeriesContext& context) : context_(context) {}
 
-    /// Runs the request in a folder. What happens within stands in the folder's log.txt; the console says how far it is
-    /// as `frame` has it. `pass`: RenderObserver::pass. Throws InputError as treefarm::render() does.
+    /// Runs the request in a folder, whose log.txt has the details; the console shows the progress in the form `frame`.
+    /// `pass`: RenderObserver::pass. Throws InputError as treefarm::render() does.
     RenderOutcome render(RenderRequest& request, const std::filesystem::path& folder, StatusFrame frame,
                          const decltype(RenderObserver::pass)& pass = {});
 
