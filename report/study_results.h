@@ -29,7 +29,7 @@ struct PassRow {
     Prediction halving;                          ///< until half of that error
     Prediction target;                           ///< until budget.error
     double stuv = 0, ttuv = 0, nonzero_share = 0, tree_nodes = 0, tree_memory = 0;
-    std::map<std::string, double> phases;  ///< time of the last message, in seconds of the coordinator's clock
+    std::map<std::string, double> phases;  ///< seconds of the coordinator's clock
     std::map<std::string, double> worker_seconds;
     double idle_seconds = 0;
 };
