@@ -37,26 +37,26 @@ void answer(const JoinTicket& ticket) {
 void measure(std::size_t trips) {
     GuestOptions options;
     options.fingerprint = 1;
-    TcpChannel door(options, 1);
-    std::thread guest([&] { answer(door.ticket()); });
-    await(door);
+    TcpChannel listener(options, 1);
+    std::thread guest([&] { answer(listener.ticket()); });
+    await(listener);
     const Timer short_ones;
     for (std::size_t k = 0; k < trips; ++k) {
-        door.send(1, std::make_shared<const Bytes>(8));
-        await(door);
+        listener.send(1, std::make_shared<const Bytes>(8));
+        await(listener);
     }
     std::printf("round trip of 8 bytes: %.1f us\n", 1e6 * short_ones.seconds() / static_cast<double>(trips));
     const auto payload = std::make_shared<const Bytes>(kLong);
     const Timer long_ones;
     const double before = process_cpu_seconds();
     for (std::size_t k = 0; k < kMessages; ++k)
-        door.send(1, payload);
+        listener.send(1, payload);
     for (std::size_t k = 0; k < kMessages; ++k)
-        await(door);
+        await(listener);
     const auto mib = static_cast<double>(kMessages * kLong >> 20);
     std::printf("messages of 8 MiB: %.0f MiB/s, %.2f core-seconds per GiB at both ends\n", mib / long_ones.seconds(),
                 1024 * (process_cpu_seconds() - before) / mib);
-    door.close(1);
+    listener.close(1);
     guest.join();
 }
 

@@ -42,7 +42,7 @@ std::vector<PassPlan> passes_or_refuse(const RenderRequest& request) {
     return plans;
 }
 
-[[noreturn]] void refuse_place(const RenderRequest& request, const std::vector<PassPlan>& plans, const char* what) {
+[[noreturn]] void refuse_location(const RenderRequest& request, const std::vector<PassPlan>& plans, const char* what) {
     const Film& film = request.content.scene.film;
     throw InputError(kHere, std::string("there is no such ") + what,
                      "the image has " + std::to_string(film.width) + " x " + std::to_string(film.height) +
@@ -59,7 +59,7 @@ void describe(const RenderRequest& request, const std::string& name, const TellM
     const Film& film = request.content.scene.film;
     const int x = static_cast<int>(n[1]), y = static_cast<int>(n[2]);
     if (n[0] >= plans.size() || x >= film.width || y >= film.height || n[3] >= plans[n[0]].spp)
-        refuse_place(request, plans, "sample");
+        refuse_location(request, plans, "sample");
     const auto [tree, pass] = model_and_pass(request, plans, n[0], tell);
     const TraceScene scene(request.content.scene, request.content.job);
     std::fputs(describe_sample(scene, job, pass, AnySampler(tree), x, y, n[3]).c_str(), stdout);
@@ -72,7 +72,7 @@ void trace_tile(const RenderRequest& request, const std::string& name, const Tel
                height = static_cast<std::uint32_t>(request.content.scene.film.height);
     if (n[0] >= plans.size() || n[1] >= n[3] || n[2] >= n[4] || n[3] > width || n[4] > height ||
         n[5] >= plans[n[0]].chunks)
-        refuse_place(request, plans, "tile");
+        refuse_location(request, plans, "tile");
     const auto [tree, pass] = model_and_pass(request, plans, n[0], tell);
     const RenderUnit render = make_renderer(encode_scene(request.content.scene), request.content.plan.job);
     const AnySampler guide(tree);

@@ -14,6 +14,7 @@
 #include "common/image/png.h"
 #include "common/math/next_event_sums.h"
 #include "common/metrics/false_colour.h"
+#include "common/runs/run_files.h"
 #include "worker/tools/inspect_film.h"
 
 namespace treefarm {
@@ -70,8 +71,9 @@ std::vector<MapReport> write_maps(const TraceScene& scene, const AnyModel& tree,
 }
 
 std::filesystem::path picture_folder(const InspectOptions& options) {
-    const std::filesystem::path folder = options.output.empty() ? std::filesystem::path(options.directory) / "inspect"
-                                                                : std::filesystem::path(options.output);
+    const std::filesystem::path folder = options.output.empty()
+                                             ? std::filesystem::path(options.directory) / kInspectFolder
+                                             : std::filesystem::path(options.output);
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error)
@@ -92,16 +94,16 @@ std::vector<double> next_event_parts(const RegionModel& regions) {
 void look(const InspectOptions& options, const InspectedRun& run, InspectReport& report) {
     const AnySampler guide(run.tree);
     const TraceScene scene(run.request.content.scene, run.request.content.job);
-    std::vector<NamedPlace> places;  // all of them are parsed before any is traced
+    std::vector<NamedPoint> points;  // all of them are understood before any is traced
     for (const std::string& pixel : options.pixels)
-        places.push_back(pixel_place(pixel, scene, guide));
+        points.push_back(named_pixel(pixel, scene, guide));
     for (const std::string& point : options.points)
-        places.push_back(point_place(point, guide));
+        points.push_back(named_point(point, guide));
     const std::filesystem::path folder = picture_folder(options);
     const BruteForce settings{bits_of(options.size), options.spp,
                               options.threads == 0 ? affinity_threads() : options.threads, run.taught_by_next_event};
-    for (const NamedPlace& place : places)
-        report.places.push_back(look_at_place(place, run, scene, guide, settings, folder));
+    for (const NamedPoint& point : points)
+        report.points.push_back(inspect_point(point, run, scene, guide, settings, folder));
     if (options.maps) report.maps = write_maps(scene, run.tree, guide, folder);
     std::ostringstream json;  // a study's page shows the pictures by it
     print_json(report, json);

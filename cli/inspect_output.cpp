@@ -64,15 +64,15 @@ void print_depths(const TreeStatistics& s, std::ostream& out) {
     }
 }
 
-void print_place(const PlaceReport& place, std::ostream& out) {
-    const PlaceGuidance& g = place.facts.guidance;
-    out << fmt::format("{}: at ({:.6g}, {:.6g}, {:.6g}), region {}", place.text, place.position.x, place.position.y,
-                       place.position.z, g.region);
+void print_point(const PointReport& point, std::ostream& out) {
+    const PointGuidance& g = point.facts.guidance;
+    out << fmt::format("{}: at ({:.6g}, {:.6g}, {:.6g}), region {}", point.text, point.position.x, point.position.y,
+                       point.position.z, g.region);
     if (g.has_view()) out << fmt::format(", distribution {} of its views", g.view);
     out << fmt::format("; a_BSDF {:.3g}, a_T1 {:.3g}, a_T2 {:.3g}", g.bsdf_fraction,
                        1.0f - g.bsdf_fraction - g.view_fraction, g.view_fraction);
-    out << (place.reflected > 0 ? fmt::format("; reflects {:.4g}\n", place.reflected) : std::string("\n"));
-    for (const Comparison& c : place.comparisons) {
+    out << (point.reflected > 0 ? fmt::format("; reflects {:.4g}\n", point.reflected) : std::string("\n"));
+    for (const Comparison& c : point.comparisons) {
         std::string panels;
         for (const std::string& panel : c.panels)
             panels += (panels.empty() ? "" : " | ") + panel;
@@ -114,14 +114,14 @@ Json statistics_json(const TreeStatistics& s) {
             {"t2_cells_by_depth", s.view_cell_depth}};
 }
 
-Json place_json(const PlaceReport& place) {
-    const PlaceGuidance& g = place.facts.guidance;
-    Json json = {{"place", place.text},       {"position", {place.position.x, place.position.y, place.position.z}},
+Json point_json(const PointReport& point) {
+    const PointGuidance& g = point.facts.guidance;
+    Json json = {{"place", point.text},       {"position", {point.position.x, point.position.y, point.position.z}},
                  {"region", g.region},        {"view", g.has_view() ? Json(g.view) : Json()},
                  {"a_bsdf", g.bsdf_fraction}, {"a_t1", 1.0f - g.bsdf_fraction - g.view_fraction},
-                 {"a_t2", g.view_fraction},   {"reflected", place.reflected},
+                 {"a_t2", g.view_fraction},   {"reflected", point.reflected},
                  {"pictures", Json::array()}};
-    for (const Comparison& c : place.comparisons)
+    for (const Comparison& c : point.comparisons)
         json["pictures"].push_back(
             Json{{"kind", c.kind}, {"file", c.file}, {"panels", c.panels}, {"overlap", c.overlap}, {"white", c.white}});
     return json;
@@ -146,9 +146,9 @@ void print_text(const InspectReport& report, std::ostream& out) {
     print_spreads(s, out);
     out << '\n';
     print_depths(s, out);
-    if (!report.places.empty() || !report.maps.empty()) out << '\n';
-    for (const PlaceReport& place : report.places)
-        print_place(place, out);
+    if (!report.points.empty() || !report.maps.empty()) out << '\n';
+    for (const PointReport& point : report.points)
+        print_point(point, out);
     for (const MapReport& map : report.maps) {
         out << map.file;
         if (map.white > 0) out << fmt::format(": white {:.4g}, mean {:.4g}", map.white, map.mean);
@@ -160,8 +160,8 @@ void print_json(const InspectReport& report, std::ostream& out) {
     Json json = {{"run", report.directory}, {"tree", statistics_json(report.statistics)}};
     if (!report.next_event.empty()) json["next_event"] = report.next_event;
     json["places"] = Json::array();
-    for (const PlaceReport& place : report.places)
-        json["places"].push_back(place_json(place));
+    for (const PointReport& point : report.points)
+        json["places"].push_back(point_json(point));
     json["maps"] = Json::array();
     for (const MapReport& map : report.maps) {
         json["maps"].push_back(Json{{"kind", map.kind}, {"file", map.file}});

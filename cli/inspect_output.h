@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/inspect_places.h"
+#include "cli/inspect_points.h"
 #include "common/guiding/regions/model_statistics.h"
 
 namespace treefarm {
@@ -23,7 +23,7 @@ struct InspectReport {
     std::string directory;
     TreeStatistics statistics;
     std::vector<double> next_event;  ///< fraction of the regions by kNextEventSamples; empty: not decided
-    std::vector<PlaceReport> places;
+    std::vector<PointReport> points;
     std::vector<MapReport> maps;
 };
 

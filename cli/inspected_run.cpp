@@ -2,13 +2,12 @@
 #include "cli/inspected_run.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
-#include "common/base/files/read_bytes.h"
 #include "common/base/hash.h"
 #include "common/base/refuse.h"
 #include "common/config/job_reader.h"
 #include "common/plan/schedule/schedule_file.h"
+#include "common/runs/run_json.h"
 #include "common/scene/pack/scene_codec.h"
 #include "coordinator/render/stored_model.h"
 
@@ -19,27 +18,19 @@ namespace {
 void check_directory(const std::filesystem::path& directory) {
     if (!std::filesystem::is_directory(directory))
         refuse(directory, "is no run directory", "name the folder that a render wrote its files to");
-    if (!std::filesystem::exists(directory / "job.toml"))
-        refuse(directory / "job.toml", "is missing, so this is no run directory",
+    if (!std::filesystem::exists(directory / kJobFile))
+        refuse(directory / kJobFile, "is missing, so this is no run directory",
                "name the folder that a render wrote its files to");
-    if (!std::filesystem::exists(directory / "summary.json"))
-        refuse(directory / "summary.json", "is missing, so the run has not come to its end",
+    if (!std::filesystem::exists(directory / kSummaryFile))
+        refuse(directory / kSummaryFile, "is missing, so the run has not come to its end",
                "wait for it, or render again");
 }
 
-/// Text value of a key in summary.json.
-std::string summary_text(const nlohmann::json& summary, const std::filesystem::path& file, const char* key) {
-    const auto found = summary.find(key);
-    if (found == summary.end() || !found->is_string())
-        refuse(file, std::string("says nothing of ") + key + ", so another version wrote it", "render again");
-    return found->get<std::string>();
-}
-
-nlohmann::json read_summary(const std::filesystem::path& file) {
-    const auto bytes = read_bytes(file, "render again");
-    nlohmann::json summary = nlohmann::json::parse(bytes.begin(), bytes.end(), nullptr, false);
-    if (!summary.is_object()) refuse(file, "is not what a render writes", "render again");
-    return summary;
+/// The text of a key in summary.json.
+std::string summary_text(const RunJson& summary, const std::filesystem::path& file, RunKey key) {
+    if (!text_of(summary, key).is_string())
+        refuse(file, std::string("says nothing of ") + key.name() + ", so another version wrote it", "render again");
+    return text_in(summary, key);
 }
 
 StoredModel read_tree(const std::filesystem::path& file, const std::string& expected_hash, const Job& job) {
@@ -61,12 +52,13 @@ StoredModel read_tree(const std::filesystem::path& file, const std::string& expe
 
 InspectedRun read_inspected_run(const std::filesystem::path& directory) {
     check_directory(directory);
-    const std::filesystem::path job = directory / "job.toml", summary_file = directory / "summary.json";
-    const nlohmann::json summary = read_summary(summary_file);
+    const std::filesystem::path job = directory / kJobFile, summary_file = directory / kSummaryFile;
+    const RunJson summary = read_run_json(summary_file);
+    if (summary.empty()) refuse(summary_file, "is not what a render writes", "render again");
     InspectedRun run;
     run.directory = directory;
     StoredModel stored =
-        read_tree(directory / "tree.bin", summary_text(summary, summary_file, "tree_file_hash"), read_job_file(job));
+        read_tree(directory / kTreeFile, summary_text(summary, summary_file, "tree_file_hash"), read_job_file(job));
     run.tree = std::move(stored.model);
     run.tree_bytes = stored.bytes;
     run.request = read_request({.file = job.string()}, {});
@@ -74,7 +66,7 @@ InspectedRun read_inspected_run(const std::filesystem::path& directory) {
         summary_text(summary, summary_file, "scene_hash"))
         refuse(run.request.content.job.scene.file,
                "is not the scene that " + job.string() + " rendered: it has changed since", "render again");
-    const std::filesystem::path schedule = directory / "schedule.toml";
+    const std::filesystem::path schedule = directory / kScheduleFile;
     const std::vector<PassPlan> passes =
         parse_schedule(read_settings_text(schedule, "schedule"), schedule.string(), run.request.content.plan.job);
     const auto teacher = std::find_if(passes.rbegin(), passes.rend(), [](const PassPlan& pass) { return pass.record; });

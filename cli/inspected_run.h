@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <string>
 
 #include "common/guiding/any_guide.h"
 #include "coordinator/render/read_request.h"

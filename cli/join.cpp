@@ -12,9 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "cli/on_farm.h"
@@ -27,6 +25,7 @@
 #include "common/base/timer.h"
 #include "common/comm/join_ticket.h"
 #include "common/comm/tcp_channel.h"
+#include "common/runs/run_json.h"
 #include "worker/local_worker.h"
 #include "worker/registry.h"
 
@@ -54,9 +53,9 @@ fs::path ticket_file(const JoinOptions& options) {
     if (!options.file.empty()) return options.file;
     const fs::path run = options.run;
     if (fs::exists(run / kTicketFileName)) return run / kTicketFileName;
-    if (!fs::exists(run / "job.toml"))
+    if (!fs::exists(run / kJobFile))
         refuse(run, "is no run directory", "name the folder that a render writes its files to");
-    if (fs::exists(run / "summary.json"))
+    if (fs::exists(run / kSummaryFile))
         refuse(run, "is over: there is nothing to join", "treefarm resume adds samples to it");
     refuse(run, "accepts no workers: it was started without farm.join, or was killed",
            "start it with --set farm.join=true");
@@ -64,18 +63,16 @@ fs::path ticket_file(const JoinOptions& options) {
 
 /// Whether the render has ended for good.
 bool is_done(const JoinOptions& options) {
-    std::ifstream file(fs::path(options.run) / "summary.json", std::ios::binary);
-    const auto summary = nlohmann::json::parse(file, nullptr, false);
-    return !options.run.empty() && summary.is_object() && summary.value("state", "") == "done";
+    return !options.run.empty() && text_in(read_run_json(fs::path(options.run) / kSummaryFile), "state") == "done";
 }
 
 /// A worker that joins a run, and rejoins after each loss of its connection.
 class Guest {
   public:
-    Guest(const JoinOptions& options, unsigned threads, const Voice& voice, const std::string& name)
+    Guest(const JoinOptions& options, unsigned threads, const LogOutput& log_output, const std::string& name)
         : options_(options),
           settings_(worker_here(threads, this_build().hash())),
-          log_(make_log(name, {}, voice.console, voice.loudness)) {}
+          log_(make_log(name, {}, log_output.console, log_output.verbosity)) {}
 
     /// Runs the worker; returns the exit code.
     int run() {
@@ -194,13 +191,13 @@ int join(const LaunchEnvironment& launch, const JoinOptions& options) {
     int code = 0;
     const int number = workers > 1 ? as_many(options.workers, code) : 1;
     if (number == 0) return code;
-    const Voice voice = make_voice(launch, options.farm);
+    const LogOutput log_output = make_log_output(launch, options.farm);
     const std::string name = "joined worker" + (workers > 1 ? " " + std::to_string(number) : "");
     std::vector<std::string> warnings;
     if (number == 1) warn_if_crowded(threads * workers, warnings);
     for (const std::string& warning : warnings)
-        make_log(name, {}, voice.console, voice.loudness)->warn("{}", warning);
-    return Guest(options, threads, voice, name).run();
+        make_log(name, {}, log_output.console, log_output.verbosity)->warn("{}", warning);
+    return Guest(options, threads, log_output, name).run();
 }
 
 }  // namespace
@@ -216,7 +213,7 @@ void add_join_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_
     add_seconds_option(*command, "--wait", options->wait_seconds,
                        "how long to wait for a render that has not started, or was lost before it was done (default: 0 "
                        "s for one that has not started, 60 s for a lost one)");
-    add_voice_options(*command, options->farm);
+    add_log_options(*command, options->farm);
     command->footer(std::string("treefarm render scene.xml --run-dir RUN_DIR --set farm.join=true\n") +
                     "treefarm join RUN_DIR\n" +
                     "Exit codes: 0 the render is over, or this worker was told to leave, 1 the connection was lost, 2 "

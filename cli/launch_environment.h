@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <string>
 
 #include "common/base/terminal.h"
 #include "coordinator/run/sign_of_life.h"

@@ -5,9 +5,9 @@
 
 namespace treefarm {
 
-RenderObserver make_observer(const Voice& voice, const std::shared_ptr<SignOfLife>& life) {
+RenderObserver make_observer(const LogOutput& voice, const std::shared_ptr<SignOfLife>& life) {
     RenderObserver observer;
-    observer.message = console_messages("treefarm", voice.console, voice.loudness);
+    observer.message = console_messages("treefarm", voice.console, voice.verbosity);
     if (!life) return observer;
     observer.phase = [life](LifePhase phase) { life->enter(phase); };
     observer.progress = [life](const RenderProgress& progress, const Roster& roster) {
@@ -22,9 +22,9 @@ RenderObserver make_observer(const Voice& voice, const std::shared_ptr<SignOfLif
     return observer;
 }
 
-SeriesContext make_series(const RenderOrigin& origin, const RenderWorkers& workers, const Voice& voice, const Log& log,
-                          const std::shared_ptr<SignOfLife>& life) {
-    const Loudness within = voice.loudness == Loudness::verbose ? Loudness::verbose : Loudness::quiet;
+SeriesContext make_series(const RenderOrigin& origin, const RenderWorkers& workers, const LogOutput& voice,
+                          const Log& log, const std::shared_ptr<SignOfLife>& life) {
+    const Verbosity within = voice.verbosity == Verbosity::verbose ? Verbosity::verbose : Verbosity::quiet;
     SeriesContext series{origin, workers, make_observer({voice.console, within}, life), voice.console, log};
     if (life) series.origin.attempt = life->attempt();
     if (life)

@@ -28,10 +28,10 @@ constexpr double kDismissSeconds = FarmLimits().dismiss;
 constexpr double kFinalizeSeconds = 10.0;
 
 /// Runs the coordinator and one worker in this process.
-int run_here(const FarmOptions& options, const Voice& voice, const FarmTask& task) {
+int run_here(const FarmOptions& options, const LogOutput& log_output, const FarmTask& task) {
     task.prepare();
     InterruptWatch watch;  // before threads start
-    LocalFarm farm(local_worker(options.threads, voice));
+    LocalFarm farm(local_worker(options.threads, log_output));
     return task.coordinate({.channel = &farm.channel(), .stop = [&] { return watch.interrupted(); }}).code;
 }
 
@@ -69,7 +69,7 @@ bool ended_by_launcher(const LaunchEnvironment& launch, const InterruptWatch& wa
 /// Reads the input in the background, so that workers receive heartbeats however long it takes.
 void prepare(const LaunchEnvironment& launch, MpiSession& session, const FarmTask& task, InterruptWatch& watch) {
     Pulse pulse(session.channel());
-    run_aside(task.prepare, [&] {
+    run_in_background(task.prepare, [&] {
         if (watch.interrupted()) leave_reading(launch, session, ended_by_launcher(launch, watch));
         pulse.beat();
     });
@@ -88,11 +88,11 @@ int coordinate(const LaunchEnvironment& launch, MpiSession& session, const FarmT
     return end.code;
 }
 
-int work(MpiSession& session, const FarmOptions& options, const Voice& voice, InterruptWatch& watch) {
+int work(MpiSession& session, const FarmOptions& options, const LogOutput& log_output, InterruptWatch& watch) {
     const unsigned asked = options.threads;
     const unsigned portion = affinity_threads() / static_cast<unsigned>(std::max(1, session.workers_on_host()));
     const unsigned threads = asked > 0 ? asked : std::max(1u, portion);
-    const Log log = make_log("worker " + std::to_string(session.rank()), {}, voice.console, voice.loudness);
+    const Log log = make_log("worker " + std::to_string(session.rank()), {}, log_output.console, log_output.verbosity);
     std::vector<std::string> warnings;
     warn_if_crowded(asked, warnings);
     if (affinity_threads() < host_processors() / static_cast<unsigned>(std::max(1, session.workers_on_host())))
@@ -127,9 +127,9 @@ std::optional<JoinKey> run_key(const LaunchEnvironment& launch) {
 }
 
 /// Logs which messages are not authenticated, if they go over a network.
-void tell_trust(const LaunchEnvironment& launch, const MpiSession& session, const Voice& voice) {
+void tell_trust(const LaunchEnvironment& launch, const MpiSession& session, const LogOutput& log_output) {
     if (session.size() == 1 || session.rank() != 0 || session.is_sealed()) return;
-    const Log log = make_log("coordinator", {}, voice.console, voice.loudness);
+    const Log log = make_log("coordinator", {}, log_output.console, log_output.verbosity);
     if (!launch.key_file.empty())
         log->warn("not all processes can read {}: messages are not authenticated, and the network is trusted",
                   launch.key_file.string());
@@ -149,51 +149,52 @@ std::string missing_processes(const LaunchEnvironment& launch, double seconds) {
 
 }  // namespace
 
-Voice errors_only() {
-    return {std::make_shared<Console>(TerminalKind{}, false), Loudness::quiet};
+LogOutput errors_only() {
+    return {std::make_shared<Console>(TerminalKind{}, false), Verbosity::quiet};
 }
 
-LocalWorker local_worker(unsigned threads, const Voice& voice) {
-    return [threads, voice](Channel& own) {
-        const Log log = make_log("worker", {}, voice.console, voice.loudness);
+LocalWorker local_worker(unsigned threads, const LogOutput& log_output) {
+    return [threads, log_output](Channel& own) {
+        const Log log = make_log("worker", {}, log_output.console, log_output.verbosity);
         run_local_worker(own, threads, this_build().hash(), log);
     };
 }
 
-void add_voice_options(CLI::App& command, FarmOptions& options) {
+void add_log_options(CLI::App& command, FarmOptions& options) {
     add_threads_option(command, options.threads, "tracing threads of each process (default: its processors)");
     command.add_flag("-q,--quiet", options.quiet, "only errors on the terminal");
     command.add_flag("-v,--verbose", options.verbose, "every figure of each pass on the terminal")->excludes("--quiet");
 }
 
 void add_farm_options(CLI::App& command, FarmOptions& options) {
-    add_voice_options(command, options);
+    add_log_options(command, options);
     add_number_option(command, "--start-seconds", options.start_seconds, {1, 1e6, "seconds", "60"},
                       "under mpirun: in which all processes have to come together (default: 25)");
 }
 
-Voice make_voice(const LaunchEnvironment& launch, const FarmOptions& options) {
-    return {std::make_shared<Console>(launch.terminal, !options.quiet), options.quiet     ? Loudness::quiet
-                                                                        : options.verbose ? Loudness::verbose
-                                                                                          : Loudness::normal};
+LogOutput make_log_output(const LaunchEnvironment& launch, const FarmOptions& options) {
+    return {std::make_shared<Console>(launch.terminal, !options.quiet), options.quiet     ? Verbosity::quiet
+                                                                        : options.verbose ? Verbosity::verbose
+                                                                                          : Verbosity::normal};
 }
 
 namespace {
 
-int run_processes(const LaunchEnvironment& launch, const FarmOptions& options, const Voice& voice,
+int run_processes(const LaunchEnvironment& launch, const FarmOptions& options, const LogOutput& log_output,
                   const FarmTask& task) {
     if (!launch.under_mpi) {
         if (launch.life) launch.life->begin();
-        return run_here(options, voice, task);
+        return run_here(options, log_output, task);
     }
     if (launch.one_host) skip_network_search();
     InterruptWatch watch;  // before MPI starts its threads
     MpiSession session(options.start_seconds, missing_processes(launch, options.start_seconds), run_key(launch));
     if (launch.life) launch.life->begin();
-    tell_trust(launch, session, voice);
+    tell_trust(launch, session, log_output);
     if (session.size() > 1)
-        return session.rank() == 0 ? coordinate(launch, session, task, watch) : work(session, options, voice, watch);
-    const int code = guarded([&]() -> CoordinatorEnd { return {run_here(options, voice, task), {}}; }).code;
+        return session.rank() == 0 ? coordinate(launch, session, task, watch)
+                                   : work(session, options, log_output, watch);
+    const int code = guarded([&]() -> CoordinatorEnd { return {run_here(options, log_output, task), {}}; }).code;
     if (launch.life) launch.life->end(code);
     session.finish(true, code, kFinalizeSeconds);
     return code;
@@ -201,9 +202,10 @@ int run_processes(const LaunchEnvironment& launch, const FarmOptions& options, c
 
 }  // namespace
 
-int run_on_farm(const LaunchEnvironment& launch, const FarmOptions& options, const Voice& voice, const FarmTask& task) {
+int run_on_farm(const LaunchEnvironment& launch, const FarmOptions& options, const LogOutput& log_output,
+                const FarmTask& task) {
     ignore_broken_pipes();
-    const int code = run_processes(launch, options, voice, task);
+    const int code = run_processes(launch, options, log_output, task);
     if (launch.life) launch.life->end(code);
     return code;
 }

@@ -24,7 +24,7 @@ struct CoordinatorEnd {
 
 /// The coordinator's part of a command, between the start of the workers and their dismissal.
 struct FarmTask {
-    std::function<void()> prepare;  ///< reads and checks the input; without mpirun a signal interrupts it
+    std::function<void()> prepare;  ///< reads and checks the input; without mpirun a signal breaks it off
     std::function<CoordinatorEnd(const RenderWorkers&)> coordinate;
 };
 
@@ -37,26 +37,27 @@ struct FarmOptions {
 };
 
 /// Adds --threads, --quiet, --verbose
-void add_voice_options(CLI::App& command, FarmOptions& options);
+void add_log_options(CLI::App& command, FarmOptions& options);
 /// Adds --threads, --quiet, --verbose, --start-seconds
 void add_farm_options(CLI::App& command, FarmOptions& options);
 
-/// Console output of this process: its stream and verbosity.
-struct Voice {
+/// The voice of this process: where it speaks, and how much it says.
+struct LogOutput {
     ConsolePtr console;
-    Loudness loudness = Loudness::normal;
+    Verbosity verbosity = Verbosity::normal;
 };
-Voice make_voice(const LaunchEnvironment& launch, const FarmOptions& options);
+LogOutput make_log_output(const LaunchEnvironment& launch, const FarmOptions& options);
 
-/// Output of errors only, without a status line.
-Voice errors_only();
+/// Only what goes wrong, and no status.
+LogOutput errors_only();
 
-/// Worker in this process. `threads`: 0: its processors.
-LocalWorker local_worker(unsigned threads, const Voice& voice);
+/// A worker in this process. `threads`: 0: its processors.
+LocalWorker local_worker(unsigned threads, const LogOutput& log_output);
 
-/// Runs the task over all processes of the MPI job, or as coordinator and one worker in this process. Returns the exit
-/// code; InputError and RunError leave it in one process only.
-int run_on_farm(const LaunchEnvironment& launch, const FarmOptions& options, const Voice& voice, const FarmTask& task);
+/// Runs the task over all processes of the MPI job, or over coordinator and one worker in this process. Returns the
+/// exit code; InputError and RunError leave it in one process only.
+int run_on_farm(const LaunchEnvironment& launch, const FarmOptions& options, const LogOutput& log_output,
+                const FarmTask& task);
 
 /// Adds a warning if there are more threads than processors.
 void warn_if_crowded(unsigned threads, std::vector<std::string>& warnings);

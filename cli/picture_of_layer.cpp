@@ -36,7 +36,7 @@ struct Range {
         }
     }
     /// Maps to 0.1 to 1, so that the least value is not black.
-    float place(float v) const {
+    float normalised(float v) const {
         if (v == 0.0f || std::isnan(v)) return 0.0f;
         return high > low ? 0.1f + 0.9f * (v - low) / (high - low) : 1.0f;
     }
@@ -54,8 +54,8 @@ Rgb colour_of(float number) {
     if (!(number > 0.0f)) return Rgb(0.0f);
     const float hue = number * 0.6180339887f - std::floor(number * 0.6180339887f);  // far from those of neighbours
     const auto component = [hue](float shift) {
-        const float place = hue + shift - std::floor(hue + shift);
-        return plain(0.25f + 0.75f * std::clamp(std::abs(6.0f * place - 3.0f) - 1.0f, 0.0f, 1.0f));
+        const float position = hue + shift - std::floor(hue + shift);
+        return plain(0.25f + 0.75f * std::clamp(std::abs(6.0f * position - 3.0f) - 1.0f, 0.0f, 1.0f));
     };
     return {component(0.0f), component(2.0f / 3.0f), component(1.0f / 3.0f)};
 }
@@ -124,7 +124,7 @@ RgbImage picture_of_layer(const Image& image, const ImageLayer& layer, const Pic
                 if (v == Vec3(0.0f)) return Rgb(0.0f);
                 Rgb c;
                 for (int i = 0; i < 3; ++i)
-                    c[i] = plain(is_short ? 0.5f + 0.5f * v[i] : ranges[i].place(v[i]));
+                    c[i] = plain(is_short ? 0.5f + 0.5f * v[i] : ranges[i].normalised(v[i]));
                 return c;
             });
             break;
@@ -145,7 +145,7 @@ RgbImage picture_of_layer(const Image& image, const ImageLayer& layer, const Pic
             if (!is_alpha) range = range_text(name, stretched) + "\n";
             each([&](std::size_t p) {
                 const float v = value(0, p);
-                return Rgb(plain(is_alpha ? v : stretched.place(v)));
+                return Rgb(plain(is_alpha ? v : stretched.normalised(v)));
             });
             break;
         }

@@ -25,9 +25,9 @@ void debug(const LaunchEnvironment& launch, const RenderOptions& options) {
         throw InputError(Location{"--debug-sample", 0, 0}, "traces one sample in one process", "leave mpirun away");
     RenderRequest request = read_request(options);
     request.start.checkpoint = find_checkpoint(options.run_directory, request);
-    const Voice voice = errors_only();
-    request.workers.local = local_worker(0, voice);
-    debug_sample(request, options.debug_sample, console_messages("treefarm", voice.console, voice.loudness));
+    const LogOutput log_output = errors_only();
+    request.workers.local = local_worker(0, log_output);
+    debug_sample(request, options.debug_sample, console_messages("treefarm", log_output.console, log_output.verbosity));
 }
 
 }  // namespace
@@ -38,28 +38,28 @@ int render_on_farm(const LaunchEnvironment& launch, const FarmOptions& farm, con
     RenderRequest request;
     std::optional<RenderOutcome> there;
     FarmTask task;
-    const Voice voice = make_voice(launch, farm);
+    const LogOutput log_output = make_log_output(launch, farm);
     task.prepare = [&] {
         if (launch.life) launch.life->enter(LifePhase::scene);
-        const ReadingNotice notice(voice.console, name);
+        const ReadingNotice notice(log_output.console, name);
         request = read();
         if (go_on) there = go_on(request);
         warn_if_crowded(farm.threads, request.content.warnings);
     };
     task.coordinate = [&](const RenderWorkers& workers) -> CoordinatorEnd {
         if (there) {
-            make_log("treefarm", {}, voice.console, voice.loudness)
+            make_log("treefarm", {}, log_output.console, log_output.verbosity)
                 ->info("{} holds this render already: {}", there->folder.string(), render_words(there->folder));
             return {exit_code_of(there->state, there->missed_target), {}};
         }
         request.workers = workers;
         if (launch.life) request.origin.attempt = launch.life->attempt();
-        Progress shown(voice.console, request.content.job.budget);
-        const RenderObserver observer = make_observer(voice, launch.life);
+        Progress shown(log_output.console, request.content.job.budget);
+        const RenderObserver observer = make_observer(log_output, launch.life);
         const RenderOutcome outcome = render(request, shown_by(shown, observer));
         return {exit_code_of(outcome.state, outcome.missed_target), outcome.lost_peers};
     };
-    return run_on_farm(launch, farm, voice, task);
+    return run_on_farm(launch, farm, log_output, task);
 }
 
 void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const std::string& command_line,

@@ -8,6 +8,7 @@
 #include "cli/render.h"
 #include "common/base/refuse.h"
 #include "common/config/job_reader.h"
+#include "common/runs/run_files.h"
 #include "coordinator/shot/frame_record.h"
 #include "coordinator/shot/frames.h"
 #include "coordinator/shot/shot_run.h"
@@ -29,13 +30,12 @@ RenderOptions frame_options(RenderOptions options, int frame) {
 /// Run directory of the model with which a frame begins: that of an earlier start, if there was one; else that of the
 /// nearest earlier frame with a model. Empty: none.
 std::string carried_model(const Shot& shot, int frame) {
-    if (const std::filesystem::path own = shot.directory / frame_folder(frame) / "job.toml";
-        std::filesystem::exists(own))
+    if (const std::filesystem::path own = shot.directory / frame_folder(frame) / kJobFile; std::filesystem::exists(own))
         return read_job_file(own).guiding.initial_model;
     const auto end = std::find(shot.frames.begin(), shot.frames.end(), frame);
     for (auto before = end; before != shot.frames.begin();) {
         const std::filesystem::path folder = shot.directory / frame_folder(*--before);
-        if (std::filesystem::exists(folder / "tree.bin")) return folder.string();
+        if (std::filesystem::exists(folder / kTreeFile)) return folder.string();
     }
     return "";
 }
@@ -85,8 +85,8 @@ int render_shot(const LaunchEnvironment& launch, const RenderOptions& options) {
     if (is_separate_world(launch)) return 2;
     Shot shot;
     FarmTask task;
-    const Voice voice = make_voice(launch, options.farm);
-    const Log log = make_log("treefarm", {}, voice.console, voice.loudness);
+    const LogOutput log_output = make_log_output(launch, options.farm);
+    const Log log = make_log("treefarm", {}, log_output.console, log_output.verbosity);
     const std::string attempt = launch.life ? launch.life->attempt() : "";
     task.prepare = [&] {
         shot.frames = parse_frames(options.frames, Location{"--frames", 0, 0});
@@ -101,12 +101,12 @@ int render_shot(const LaunchEnvironment& launch, const RenderOptions& options) {
             log->warn("{}", warning);
     };
     task.coordinate = [&](const RenderWorkers& workers) -> CoordinatorEnd {
-        SeriesContext series = make_series(render_origin(options), workers, voice, log, launch.life);
+        SeriesContext series = make_series(render_origin(options), workers, log_output, log, launch.life);
         series.overwrite = options.overwrite;
         const ShotOutcome outcome = run_shot(shot, series);
         return {exit_code_of(outcome.state, outcome.missed_target), outcome.lost_peers};
     };
-    return run_on_farm(launch, options.farm, voice, task);
+    return run_on_farm(launch, options.farm, log_output, task);
 }
 
 }  // namespace treefarm

@@ -47,7 +47,8 @@ int serve(const ServeOptions& options) {
     std::unique_ptr<Site> site;
     WebServer server([&](const SiteRequest& request) { return site->respond(request); });
     const int port = server.bind(options.address, options.port);
-    site = std::make_unique<Site>(ConfinedFolder(options.folder), SiteDoor{token, "treefarm-" + std::to_string(port)});
+    site =
+        std::make_unique<Site>(ConfinedFolder(options.folder), SiteAccess{token, "treefarm-" + std::to_string(port)});
     server.start();
     std::cout << "serving " << options.folder << " at http://" << host_of(options.address) << ":" << port << "/"
               << (token.empty() || !options.token_file.empty() ? "" : "?token=" + token) << " (Ctrl-C ends)"

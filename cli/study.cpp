@@ -51,8 +51,8 @@ int study(const LaunchEnvironment& launch, const StudyOptions& options) {
     if (is_separate_world(launch)) return 2;
     Study study;
     FarmTask task;
-    const Voice voice = make_voice(launch, options.farm);
-    const Log log = make_log("treefarm", {}, voice.console, voice.loudness);
+    const LogOutput log_output = make_log_output(launch, options.farm);
+    const Log log = make_log("treefarm", {}, log_output.console, log_output.verbosity);
     task.prepare = [&] {
         study = read_study_for(options);
         std::vector<std::string> warnings;
@@ -61,13 +61,13 @@ int study(const LaunchEnvironment& launch, const StudyOptions& options) {
             log->warn("{}", warning);
     };
     task.coordinate = [&](const RenderWorkers& workers) -> CoordinatorEnd {
-        SeriesContext series =
-            make_series({.command = options.command, .fingerprint = this_build()}, workers, voice, log, launch.life);
+        SeriesContext series = make_series({.command = options.command, .fingerprint = this_build()}, workers,
+                                           log_output, log, launch.life);
         series.overwrite = options.overwrite;
         const StudyOutcome outcome = run_study(study, series);
         return {exit_code_of(outcome.state), outcome.lost_peers};
     };
-    const int code = run_on_farm(launch, options.farm, voice, task);
+    const int code = run_on_farm(launch, options.farm, log_output, task);
     if (code == 0 && launch.rank == 0) {
         const WrittenReport report = write_study_report(study.directory);
         for (const std::string& answer : report.answers)

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/error.h"
+#include "common/runs/run_files.h"
 #include "report/figure_text.h"
 #include "report/html.h"
 
@@ -101,7 +102,7 @@ std::string plan_tables(const StudyResults& results, const SceneResult& scene) {
     for (const MethodResult& method : results.methods) {
         const auto cells = results.of(scene.name, method.name);
         if (cells.empty()) continue;
-        Plan plan{read_text(cells.front()->folder / "plan.json"), method.name, costs_of(costs, method.name)};
+        Plan plan{read_text(cells.front()->folder / kPlanFile), method.name, costs_of(costs, method.name)};
         const auto same = std::find_if(plans.begin(), plans.end(),
                                        [&](const Plan& p) { return p.text == plan.text && p.costs == plan.costs; });
         if (same == plans.end())

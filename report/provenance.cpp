@@ -3,22 +3,14 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
 
+#include "common/runs/run_json.h"
 #include "report/study_results.h"
 
 namespace treefarm {
 
 namespace {
-
-using Json = nlohmann::json;
-
-std::string text_at(const Json& json, const char* key) {
-    const auto at = json.find(key);
-    return at != json.end() && at->is_string() ? at->get<std::string>() : "";
-}
 
 std::string joined(const std::set<std::string>& texts, const char* before) {
     std::string all;
@@ -36,18 +28,12 @@ std::string counted(const std::set<int>& numbers, const char* what) {
 }  // namespace
 
 Provenance read_provenance(const std::filesystem::path& folder) {
-    std::ifstream file(folder / "summary.json", std::ios::binary);
-    const Json json = Json::parse(file, nullptr, false);
-    Provenance made;
-    if (!json.is_object()) return made;
-    if (json.contains("build") && json["build"].is_object()) made.source = text_at(json["build"], "source");
-    made.host = text_at(json, "host");
-    made.processor = text_at(json, "processor");
-    made.started = text_at(json, "started");
-    if (!json.contains("farm") || !json["farm"].is_object() || !json["farm"].contains("workers")) return made;
-    for (const Json& worker : json["farm"]["workers"]) {
+    const RunJson json = read_run_json(folder / kSummaryFile);
+    Provenance made{text_in(object_of(json, "build"), "source"), text_in(json, "host"), text_in(json, "processor"),
+                    text_in(json, "started")};
+    for (const RunJson& worker : array_of(object_of(json, "farm"), "workers")) {
         ++made.workers;
-        made.threads += worker.value("threads", 0);
+        made.threads += static_cast<int>(number_in(worker, "threads"));
     }
     return made;
 }

@@ -6,17 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <limits>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "common/base/error.h"
+#include "common/runs/run_json.h"
 
 namespace treefarm {
 
 namespace {
 
-using Json = nlohmann::json;
 using Settings = std::map<std::string, std::string>;
 
 /// A render with the data of its folder.
@@ -26,12 +24,7 @@ struct Run {
     Settings settings;  ///< keys of job.toml without seed, budget and image size
 };
 
-double number(const Json& json, const char* key) {
-    const auto at = json.find(key);
-    return at != json.end() && at->is_number() ? at->get<double>() : std::numeric_limits<double>::quiet_NaN();
-}
-
-/// Settings of a job.toml in the form that this program writes: [section] lines, then key = value.
+/// job.toml as this program writes it: [section] lines, then key = value.
 Settings read_settings(const std::filesystem::path& file) {
     Settings settings;
     std::ifstream in(file);
@@ -44,32 +37,10 @@ Settings read_settings(const std::filesystem::path& file) {
     return settings;
 }
 
-PassRow read_pass(const Json& json, double core_seconds_before, int threads) {
-    PassRow row;
-    row.pass = json.at("pass");
-    row.spp = json.at("spp");
-    row.spp_done = json.at("spp_done");
-    row.threads = threads;
-    row.run_seconds = json.at("run_seconds");
-    row.core_seconds = core_seconds_before + json.at("core_seconds").get<double>();
-    const Json error = json.value("image_error", Json());
-    row.estimate = number(error, "relative");
-    row.estimate_low = number(error, "low");
-    row.estimate_high = number(error, "high");
-    row.halving = row.target = {std::numeric_limits<double>::quiet_NaN(), ""};
-    row.nonzero_share = json.at("nonzero_share");
-    row.tree_nodes = json.at("tree_nodes");
-    row.tree_memory = json.at("tree_memory");
-    for (const auto& [phase, seconds] : json.at("phase_seconds").items())
-        row.phases[phase] = seconds.get<double>();
-    return row;
-}
-
 Run read_run(const std::filesystem::path& folder) {
     const Location where{folder.string()};
-    std::ifstream file(folder / "summary.json", std::ios::binary);
     try {
-        const Json json = Json::parse(file);
+        const RunJson json = read_whole_run_json(folder / kSummaryFile);
         Run run;
         run.cell.folder = folder;
         run.cell.made = read_provenance(folder);
@@ -77,13 +48,14 @@ Run read_run(const std::filesystem::path& folder) {
         run.cell.height = json.at("height");
         run.scene_file = json.at("scene");
         double core_seconds = 0;
-        for (const Json& pass : json.at("passes")) {
-            run.cell.passes.push_back(read_pass(pass, core_seconds, run.cell.made.threads));
-            core_seconds = run.cell.passes.back().core_seconds;
+        for (const RunJson& pass : json.at("passes")) {
+            PassRow& row = run.cell.passes.emplace_back(read_pass(pass));
+            row.threads = run.cell.made.threads;
+            row.core_seconds = core_seconds += row.core_seconds;
         }
         if (run.cell.passes.empty() || !(run.cell.passes.back().estimate > 0))
             throw InputError(where, "ended before its error was known", "leave it out, or render more samples");
-        run.settings = read_settings(folder / "job.toml");
+        run.settings = read_settings(folder / kJobFile);
         if (const auto seed = run.settings.find("sampler.seed"); seed != run.settings.end())
             run.cell.seed = std::strtoull(seed->second.c_str(), nullptr, 10);
         std::erase_if(run.settings, [](const auto& setting) {
@@ -91,7 +63,7 @@ Run read_run(const std::filesystem::path& folder) {
                    setting.first.starts_with("image.");
         });
         return run;
-    } catch (const Json::exception& error) {
+    } catch (const RunJson::exception& error) {
         throw InputError(where, std::string("what a render left is damaged: ") + error.what(),
                          "render it again, or leave it out");
     }
@@ -137,7 +109,7 @@ void add_once(std::vector<Named>& list, Named one) {
 }  // namespace
 
 bool is_run_folder(const std::filesystem::path& folder) {
-    return std::filesystem::exists(folder / "summary.json");
+    return std::filesystem::exists(folder / kSummaryFile);
 }
 
 StudyResults read_run_results(std::span<const std::filesystem::path> folders) {

@@ -8,7 +8,6 @@
 #include <set>
 
 #include "report/effect_costs.h"
-#include "report/figure_text.h"
 #include "report/html.h"
 #include "report/page_assets.h"
 #include "report/prediction_table.h"

@@ -2,22 +2,22 @@
 #include "report/study_results.h"
 
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "common/base/error.h"
+#include "common/runs/run_json.h"
 
 namespace treefarm {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = RunJson;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 Json read_json(const std::filesystem::path& path) {
-    std::ifstream file(path);
     try {
-        return Json::parse(file);
+        return read_whole_run_json(path);
     } catch (const Json::exception& error) {
         throw InputError(Location{path.string()}, std::string("cannot be read: ") + error.what(),
                          "remove it and run the study again");
@@ -25,7 +25,7 @@ Json read_json(const std::filesystem::path& path) {
 }
 
 double number(const Json& value) {
-    return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+    return value.is_number() ? value.get<double>() : kNone;
 }
 
 std::map<std::string, double> numbers(const Json& object) {
@@ -35,43 +35,26 @@ std::map<std::string, double> numbers(const Json& object) {
     return values;
 }
 
-/// Forecast of a pass; folders of earlier versions have no trust, and no forecast of the target.
-Prediction read_prediction(const Json& json, const std::string& of) {
-    const std::string seconds = of + "_seconds", trust = of + "_trust";
-    Prediction prediction{std::numeric_limits<double>::quiet_NaN(), ""};
-    if (json.contains(seconds)) prediction.seconds = number(json[seconds]);
-    if (json.contains(trust)) prediction.trust = json[trust];
-    return prediction;
+/// Folders of earlier versions do not know how far a forecast was trusted, and have none of the target.
+Prediction read_prediction(const RunJson& forecast) {
+    return {number_in(forecast, "seconds", kNone), text_in(forecast, "trust")};
 }
 
-PassRow read_pass(const Json& json) {
-    PassRow row;
-    row.pass = json.at("pass");
-    row.spp = json.at("spp");
-    row.spp_done = json.at("spp_done");
+PassRow read_cell_pass(const RunJson& json) {
+    PassRow row = read_pass(json);
     row.threads = json.at("threads");
-    row.run_seconds = json.at("run_seconds");
-    row.core_seconds = json.at("core_seconds");
     row.measured = numbers(json.at("measured"));
-    const Json& estimate = json.at("estimate");
-    row.estimate = number(estimate.is_null() ? Json() : estimate.at("relative"));
-    row.estimate_low = number(estimate.is_null() ? Json() : estimate.at("low"));
-    row.estimate_high = number(estimate.is_null() ? Json() : estimate.at("high"));
-    row.halving = read_prediction(json, "halving");
-    row.target = read_prediction(json, "target");
+    row.halving = read_prediction(object_of(json, "halving"));
+    row.target = read_prediction(object_of(json, "target"));
     row.stuv = json.at("stuv");
     row.ttuv = json.at("ttuv");
-    row.nonzero_share = json.at("nonzero_share");
-    row.tree_nodes = json.at("tree_nodes");
-    row.tree_memory = json.at("tree_memory");
-    row.phases = numbers(json.at("phases"));
     row.worker_seconds = numbers(json.at("worker_seconds"));
     row.idle_seconds = json.at("idle_seconds");
     return row;
 }
 
 CellResult read_cell(const Json& entry, const std::filesystem::path& folder, const std::string& budget) {
-    const Json json = read_json(folder / "cell.json");
+    const Json json = read_json(folder / kCellFile);
     CellResult cell;
     cell.scene = entry.at("scene");
     cell.method = entry.at("method");
@@ -84,7 +67,7 @@ CellResult read_cell(const Json& entry, const std::filesystem::path& folder, con
     cell.budget = budget;
     cell.made = read_provenance(folder);
     for (const Json& pass : json.at("passes"))
-        cell.passes.push_back(read_pass(pass));
+        cell.passes.push_back(read_cell_pass(pass));
     return cell;
 }
 
@@ -107,7 +90,7 @@ void read_description(const Json& json, StudyResults& results) {
     results.baseline = json.at("baseline");
     results.budgets = read_budgets(json.at("budget"));
     for (const Json& scene : json.at("scenes")) {
-        SceneResult of{scene.at("name"), scene.at("file"), "", std::numeric_limits<double>::quiet_NaN(), false};
+        SceneResult of{scene.at("name"), scene.at("file"), "", kNone, false};
         if (scene.contains("reference")) {
             const Json& reference = scene["reference"];
             of.reference_file = reference.at("file");
@@ -135,6 +118,25 @@ double root_rel_mse_trimmed(const PassRow& row) {
 
 }  // namespace
 
+PassRow read_pass(const RunJson& json) {
+    PassRow row;
+    row.pass = json.at("pass");
+    row.spp = json.at("spp");
+    row.spp_done = json.at("spp_done");
+    row.run_seconds = json.at("run_seconds");
+    row.core_seconds = json.at("core_seconds");
+    const RunJson error = object_of(json, "image_error");
+    row.estimate = number_in(error, "relative", kNone);
+    row.estimate_low = number_in(error, "low", kNone);
+    row.estimate_high = number_in(error, "high", kNone);
+    row.halving = row.target = {kNone, ""};
+    row.nonzero_share = json.at("nonzero_share");
+    row.tree_nodes = json.at("tree_nodes");
+    row.tree_memory = json.at("tree_memory");
+    row.phases = numbers(json.at("phase_seconds"));
+    return row;
+}
+
 std::vector<const CellResult*> StudyResults::of(const std::string& scene, const std::string& method) const {
     std::vector<const CellResult*> found;
     for (const CellResult& cell : cells)
@@ -150,18 +152,18 @@ StudyResults StudyResults::of_budget(const std::string& budget) const {
 }
 
 StudyResults read_study_results(const std::filesystem::path& folder) {
-    if (!std::filesystem::exists(folder / "study.json"))
+    if (!std::filesystem::exists(folder / kStudyFile))
         throw InputError(Location{folder.string()},
                          "holds neither a study (study.json) nor a render that ended (summary.json)",
                          "give a folder that treefarm study or treefarm render wrote");
     StudyResults results;
     results.folder = folder;
     try {
-        const Json json = read_json(folder / "study.json");
+        const Json json = read_json(folder / kStudyFile);
         read_description(json, results);
         for (const Json& entry : json.at("cells")) {
-            const std::filesystem::path cell = folder / "cells" / entry.at("folder").get<std::string>();
-            if (std::filesystem::exists(cell / "cell.json")) {
+            const std::filesystem::path cell = folder / kCellsFolder / entry.at("folder").get<std::string>();
+            if (std::filesystem::exists(cell / kCellFile)) {
                 const std::size_t budget = entry.value("budget", std::size_t{0});
                 results.cells.push_back(read_cell(entry, cell, results.budgets.at(budget)));
             }

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +32,9 @@ struct PassRow {
     std::map<std::string, double> worker_seconds;
     double idle_seconds = 0;
 };
+
+/// A pass as summary.json and cell.json list it, with what both have. Throws RunJson::exception.
+PassRow read_pass(const nlohmann::ordered_json& json);
 
 struct CellResult {
     std::string scene, method;

@@ -8,6 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files/read_bytes.h"
+#include "common/runs/run_files.h"
 #include "report/html.h"
 
 namespace treefarm {
@@ -24,15 +25,15 @@ std::string figure(const std::filesystem::path& folder, const Json& picture, con
            "</figcaption></figure>\n";
 }
 
-std::string place_figures(const std::filesystem::path& folder, const Json& place) {
+std::string point_figures(const std::filesystem::path& folder, const Json& point) {
     std::string html;
-    for (const Json& picture : place.at("pictures")) {
+    for (const Json& picture : point.at("pictures")) {
         std::string panels;
         for (const Json& panel : picture.at("panels"))
             panels += (panels.empty() ? "" : " | ") + panel.get<std::string>();
         html += figure(
             folder, picture,
-            fmt::format("{}: {}; overlap {:.0f} %, white {:.3g} per steradian", place.at("place").get<std::string>(),
+            fmt::format("{}: {}; overlap {:.0f} %, white {:.3g} per steradian", point.at("place").get<std::string>(),
                         panels, 100 * picture.at("overlap").get<double>(), picture.at("white").get<double>()));
     }
     return html;
@@ -55,8 +56,8 @@ std::string cell_pictures(const CellResult& cell, const std::filesystem::path& f
             "cells.</p>\n<div class=\"trees\">\n",
             html_text(cell.method), tree.at("regions").get<std::uint64_t>(), tree.at("t1_cells").get<std::uint64_t>(),
             100 * tree.at("t2_share").get<double>(), tree.at("t2_cells").get<std::uint64_t>());
-        for (const Json& place : json.at("places"))
-            html += place_figures(file.parent_path(), place);
+        for (const Json& point : json.at("places"))
+            html += point_figures(file.parent_path(), point);
         for (const Json& map : json.at("maps"))
             html += map_figure(file.parent_path(), map);
         return html + "</div>\n";
@@ -72,7 +73,7 @@ std::string tree_pictures(const StudyResults& results, const SceneResult& scene)
     std::string html;
     for (const MethodResult& method : results.methods)
         for (const CellResult* cell : results.of(scene.name, method.name)) {
-            const std::filesystem::path file = cell->folder / "inspect" / "inspect.json";
+            const std::filesystem::path file = cell->folder / kInspectFolder / "inspect.json";
             if (!std::filesystem::exists(file)) continue;
             html += cell_pictures(*cell, file);
             break;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/image/exr.h"
+#include "common/runs/run_files.h"
 #include "report/html.h"
 
 namespace treefarm {
@@ -39,7 +40,7 @@ std::string viewer_data(const StudyResults& results, const SceneResult& scene) {
     for (const MethodResult& method : results.methods) {
         const auto cells = results.of(scene.name, method.name);
         if (cells.empty()) continue;
-        const std::filesystem::path file = cells.front()->folder / "image.exr";
+        const std::filesystem::path file = cells.front()->folder / kImageFile;
         if (std::filesystem::exists(file))
             images.push_back(viewer_image(method.name, caption(results, *cells.front()), file));
     }

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <memory>
 #include <string_view>
-#include <utility>
 
 #include "common/base/descriptor.h"
 

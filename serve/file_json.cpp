@@ -1,48 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "serve/file_json.h"
 
-#include <algorithm>
-
 namespace treefarm {
 
 namespace {
 
 constexpr std::size_t kMostBytes = 16 << 20;
 
-/// Greatest depth of JSON: renders write less, and the recursive printer would need much stack for more.
-constexpr int kMostDepth = 32;
-
-FileJson member(const FileJson& object, const char* key, bool (FileJson::*is_kind)() const noexcept) {
-    if (!object.is_object()) return nullptr;
-    const auto found = object.find(key);
-    return found != object.end() && ((*found).*is_kind)() ? *found : FileJson();
-}
-
 }  // namespace
 
 FileJson read_object(const ConfinedFolder& root, const std::string& path) {
     const auto text = root.read(path, kMostBytes);
-    if (!text) return FileJson::object();
-    const auto not_too_deep = [](int depth, FileJson::parse_event_t, FileJson&) { return depth <= kMostDepth; };
-    FileJson json = FileJson::parse(*text, not_too_deep, false);
-    return json.is_object() ? json : FileJson::object();
-}
-
-FileJson number_of(const FileJson& object, const char* key) {
-    return member(object, key, &FileJson::is_number);
-}
-
-FileJson text_of(const FileJson& object, const char* key) {
-    return member(object, key, &FileJson::is_string);
-}
-
-FileJson object_of(const FileJson& object, const char* key) {
-    return member(object, key, &FileJson::is_object);
-}
-
-FileJson array_of(const FileJson& object, const char* key) {
-    FileJson array = member(object, key, &FileJson::is_array);
-    return array.is_array() ? array : FileJson::array();
+    return text ? parse_run_json(*text) : FileJson::object();
 }
 
 std::string json_text(const FileJson& json) {

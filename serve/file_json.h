@@ -1,26 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 
+#include "common/runs/run_json.h"
 #include "serve/confined_folder.h"
 
 namespace treefarm {
 
-using FileJson = nlohmann::ordered_json;
+using FileJson = RunJson;
 
-/// JSON object of a file; empty if it holds none.
+/// The object that a file of a run holds (parse_run_json()); an empty one where it holds none.
 FileJson read_object(const ConfinedFolder& root, const std::string& path);
 
-/// Member of an object if it has the expected type; else null. Files may contain anything.
-FileJson number_of(const FileJson& object, const char* key);
-FileJson text_of(const FileJson& object, const char* key);
-FileJson object_of(const FileJson& object, const char* key);
-FileJson array_of(const FileJson& object, const char* key);
-
-/// Text of a JSON value; invalid UTF-8 is replaced.
+/// Text of a JSON value, bytes that are no UTF-8 replaced.
 std::string json_text(const FileJson& json);
 
 }  // namespace treefarm

@@ -86,6 +86,11 @@ constexpr std::array kWorkerFigures = {
 };
 constexpr std::array kStates = {"running", "done", "interrupted", "failed", "killed", "silent", "unknown"};
 
+/// A figure of a view; null where there is none.
+FileJson number_at(const FileJson& view, const Figure& figure) {
+    return view.is_object() ? view.value(figure.key, FileJson()) : FileJson();
+}
+
 std::string run_of(const FileJson& run) {
     const std::string path = run.value("run", "");
     return printable(path.empty() ? run.value("title", "") : path);
@@ -118,20 +123,20 @@ std::string metrics_text(const std::vector<FileJson>& runs) {
     for (const Figure& figure : kRunFigures) {
         Metric metric(figure.name, figure.type, figure.help);
         for (const FileJson& run : runs)
-            metric.add({{"run", run_of(run)}}, number_of(run, figure.key));
+            metric.add({{"run", run_of(run)}}, number_at(run, figure));
         text += metric.text();
     }
     for (const Figure& figure : kFarmFigures) {
         Metric metric(figure.name, figure.type, figure.help);
         for (const FileJson& run : runs)
-            metric.add({{"run", run_of(run)}}, number_of(object_of(run, "farm"), figure.key));
+            metric.add({{"run", run_of(run)}}, number_at(object_of(run, "farm"), figure));
         text += metric.text();
     }
     text += worker_metric(
         runs, {"treefarm_worker_up", "gauge", "1 while a worker takes part, else 0.", ""},
         [](const FileJson& worker) { return FileJson(worker.value("state", FileJson()) == "present" ? 1.0 : 0.0); });
     for (const Figure& figure : kWorkerFigures)
-        text += worker_metric(runs, figure, [&](const FileJson& worker) { return number_of(worker, figure.key); });
+        text += worker_metric(runs, figure, [&](const FileJson& worker) { return number_at(worker, figure); });
     return text;
 }
 

@@ -2,7 +2,6 @@
 #include "serve/pass_table.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -12,7 +11,7 @@ namespace treefarm {
 
 namespace {
 
-constexpr std::array kShown = {
+constexpr RunKey kShown[] = {
     "pass",         "spp",          "spp_done",       "workers",   "threads",    "seconds",         "run_seconds",
     "core_seconds", "idle_seconds", "error",          "error_low", "error_high", "halving_seconds", "rays_per_second",
     "guided",       "tree_regions", "invalid_samples"};
@@ -43,15 +42,16 @@ FileJson pass_table(const std::string& csv) {
     std::vector<std::string_view> lines = split(std::string_view(csv).substr(0, csv.rfind('\n') + 1), '\n');
     if (lines.size() < 2) return rows;
     lines.pop_back();
-    const std::vector<std::string_view> names = split(lines.front(), ',');
+    std::vector<std::string_view> names = split(lines.front(), ',');
+    std::transform(names.begin(), names.end(), names.begin(), current_name);
     for (std::size_t k = std::max<std::size_t>(1, lines.size() > kMostRows ? lines.size() - kMostRows : 0);
          k < lines.size(); ++k) {
         const std::vector<std::string_view> fields = split(lines[k], ',');
         if (fields.size() != names.size()) continue;
         FileJson row = FileJson::object();
-        for (const char* shown : kShown)
-            if (const auto column = std::find(names.begin(), names.end(), shown); column != names.end())
-                row[shown] = number_in(fields[static_cast<std::size_t>(column - names.begin())]);
+        for (const RunKey shown : kShown)
+            if (const auto column = std::find(names.begin(), names.end(), shown.name()); column != names.end())
+                row[shown.name()] = number_in(fields[static_cast<std::size_t>(column - names.begin())]);
         rows.push_back(std::move(row));
     }
     return rows;

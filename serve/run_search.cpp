@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/runs/run_files.h"
+
 namespace treefarm {
 
 namespace {
@@ -26,7 +28,7 @@ class Search {
     void look_into(const std::string& path, std::size_t depth) {
         if (looked_into_ == limits_.folders) return;
         ++looked_into_;
-        if (const auto version = root_.version(joined_path(path, "status.json"))) {
+        if (const auto version = root_.version(joined_path(path, kStatusFile))) {
             found_.push_back({version->nanoseconds, path});
             return;  // a run's subfolders are its checkpoints and earlier runs
         }
@@ -44,7 +46,7 @@ class Search {
 }  // namespace
 
 bool is_run(const ConfinedFolder& root, const std::string& path) {
-    return root.version(joined_path(path, "status.json")).has_value();
+    return root.version(joined_path(path, kStatusFile)).has_value();
 }
 
 FoundRuns find_runs(const ConfinedFolder& root, const SearchLimits& limits) {

@@ -55,16 +55,28 @@ std::string state_of(const FileJson& status, const Here& here) {
 
 RunFiles read_files(const ConfinedFolder& root, const std::string& path, const Here& here) {
     RunFiles files;
-    files.status = read_object(root, joined_path(path, "status.json"));
+    files.status = read_object(root, joined_path(path, kStatusFile));
     files.state = state_of(files.status, here);
-    files.summary = read_object(root, joined_path(path, "summary.json"));
-    // Before the end, summary.json is from before a resume.
+    files.summary = read_object(root, joined_path(path, kSummaryFile));
+    // Until the end it is of an earlier life of the run.
     if (files.summary.value("state", FileJson()) != files.status.value("state", FileJson()))
         files.summary = FileJson::object();
     return files;
 }
 
-/// Name of the folder; for the root, its own.
+/// An object of status.json, or of summary.json where that has none.
+FileJson object_of(const RunFiles& files, RunKey key) {
+    const FileJson object = object_of(files.status, key);
+    return object.is_null() ? object_of(files.summary, key) : object;
+}
+
+/// Adds numbers of a file's object to a view; null where it has none.
+void add_numbers(FileJson& view, const FileJson& object, std::initializer_list<RunKey> keys) {
+    for (const RunKey key : keys)
+        view[key.name()] = number_of(object, key);
+}
+
+/// The folder's name; of the root its own.
 std::string title_of(const ConfinedFolder& root, const std::string& path) {
     std::error_code error;
     std::filesystem::path whole = path;
@@ -75,12 +87,11 @@ std::string title_of(const ConfinedFolder& root, const std::string& path) {
 
 FileJson entry_of(const ConfinedFolder& root, const std::string& path, const Here& here, const RunFiles& files) {
     const FileJson& status = files.status;
-    FileJson error = object_of(status, "image_error");
-    if (error.is_null()) error = object_of(files.summary, "image_error");
+    const FileJson error = object_of(files, "image_error");
     const FileJson time = number_of(status, "time");
-    const auto picture = root.version(joined_path(path, "preview.png"));
+    const auto picture = root.version(joined_path(path, kPreviewFile));
     const bool is_done = files.state == "done";
-    return {
+    FileJson entry = {
         {"kind", "run"},
         {"run", path},
         {"title", title_of(root, path)},
@@ -88,60 +99,44 @@ FileJson entry_of(const ConfinedFolder& root, const std::string& path, const Her
         {"age_seconds", time.is_number() ? FileJson(static_cast<double>(here.now) - time.get<double>()) : FileJson()},
         {"host", text_of(status, "host")},
         {"fraction", is_done ? FileJson(1.0) : number_of(status, "fraction")},
-        {"pass", number_of(status, "pass")},
-        {"passes", number_of(status, "passes")},
-        {"spp_done", number_of(status, "spp_done")},
-        {"spp", number_of(status, "spp")},
-        {"elapsed_seconds", number_of(status, "elapsed_seconds")},
-        {"seconds_left", number_of(status, "seconds_left")},
-        {"workers", number_of(status, "workers")},
-        {"rays", number_of(status, "rays")},
         {"error", number_of(error, "relative")},
         {"error_low", number_of(error, "low")},
         {"error_high", number_of(error, "high")},
         {"picture", picture ? FileJson(picture->text()) : FileJson()}};
+    add_numbers(entry, status,
+                {"pass", "passes", "spp_done", "spp", "elapsed_seconds", "seconds_left", "workers", "rays"});
+    return entry;
 }
 
 /// A worker's members in status.json or summary.json that the page shows.
 FileJson worker_of(const FileJson& worker) {
-    return {{"worker", number_of(worker, "worker")},
-            {"host", text_of(worker, "host")},
-            {"threads", number_of(worker, "threads")},
-            {"state", text_of(worker, "state")},
-            {"losses", number_of(worker, "losses")},
-            {"paths_per_second", number_of(worker, "paths_per_second")},
-            {"rays", number_of(worker, "rays")},
-            {"idle_share", number_of(worker, "idle_share")},
-            {"bad_messages", number_of(worker, "bad_messages")}};
+    FileJson view = {{"host", text_of(worker, "host")}, {"state", text_of(worker, "state")}};
+    add_numbers(view, worker,
+                {"worker", "threads", "losses", "paths_per_second", "rays", "idle_share", "bad_messages"});
+    return view;
 }
 
 FileJson farm_of(const RunFiles& files) {
-    FileJson farm = object_of(files.status, "farm");
-    if (farm.is_null()) farm = object_of(files.summary, "farm");
+    const FileJson farm = object_of(files, "farm");
     if (farm.is_null()) return nullptr;
-    FileJson workers = FileJson::array();
+    FileJson view = {{"workers", FileJson::array()}};
     for (const FileJson& worker : array_of(farm, "workers"))
-        workers.push_back(worker_of(worker));
-    return {{"workers", workers},
-            {"reissued_units", number_of(farm, "reissued_units")},
-            {"copied_units", number_of(farm, "copied_units")},
-            {"dropped_results", number_of(farm, "dropped_results")},
-            {"bad_messages", number_of(farm, "bad_messages")}};
+        view["workers"].push_back(worker_of(worker));
+    add_numbers(view, farm, {"reissued_units", "copied_units", "dropped_results", "bad_messages"});
+    return view;
 }
 
-FileJson forecast_of(const RunFiles& files, const char* key) {
-    FileJson forecast = object_of(files.status, key);
-    if (forecast.is_null()) forecast = object_of(files.summary, key);
+FileJson forecast_of(const RunFiles& files, RunKey key) {
+    const FileJson forecast = object_of(files, key);
     if (!number_of(forecast, "seconds").is_number() || !number_of(forecast, "relative_error").is_number())
         return nullptr;
-    return {{"relative_error", number_of(forecast, "relative_error")},
-            {"seconds", number_of(forecast, "seconds")},
-            {"spp", number_of(forecast, "spp")},
-            {"trust", text_of(forecast, "trust")}};
+    FileJson view = {{"trust", text_of(forecast, "trust")}};
+    add_numbers(view, forecast, {"relative_error", "seconds", "spp"});
+    return view;
 }
 
 FileJson launch_of(const ConfinedFolder& root, const std::string& path) {
-    const FileJson launch = read_object(root, joined_path(path, "launch/status.json"));
+    const FileJson launch = read_object(root, joined_path(path, std::string(kLaunchFolder) + "/" + kStatusFile));
     if (launch.empty()) return nullptr;
     return {{"attempt", text_of(launch, "attempt")},
             {"phase", text_of(launch, "phase")},
@@ -152,7 +147,7 @@ FileJson launch_of(const ConfinedFolder& root, const std::string& path) {
 /// Last lines of a log, safe to print.
 FileJson log_lines(const ConfinedFolder& root, const std::string& path) {
     FileJson lines = FileJson::array();
-    const auto text = root.read_end(joined_path(path, "log.txt"), kLogBytes);
+    const auto text = root.read_end(joined_path(path, kLogFile), kLogBytes);
     if (!text) return lines;
     std::size_t begin = text->size() == kLogBytes ? text->find('\n') : 0;  // skips the first, incomplete line
     begin = begin == std::string::npos ? 0 : begin;
@@ -166,7 +161,7 @@ FileJson log_lines(const ConfinedFolder& root, const std::string& path) {
 
 }  // namespace
 
-Here this_place() {
+Here local_host() {
     return {std::time(nullptr), host_name(),
             [](int pid) { return pid > 0 && (::kill(pid, 0) == 0 || errno != ESRCH); }};
 }
@@ -181,13 +176,12 @@ nlohmann::ordered_json run_view(const ConfinedFolder& root, const std::string& p
     view["farm"] = farm_of(files);
     view["halving"] = forecast_of(files, "halving");
     view["target"] = forecast_of(files, "target");
-    for (const char* key : {"scene", "command", "image_hash", "tree_hash", "started"})
-        view[key] = text_of(files.summary, key);
+    for (const RunKey key : std::initializer_list<RunKey>{"scene", "command", "image_hash", "tree_hash", "started"})
+        view[key.name()] = text_of(files.summary, key);
     view["message"] = text_of(files.summary, "error");
-    for (const char* key : {"width", "height"})
-        view[key] = number_of(files.summary, key);
+    add_numbers(view, files.summary, {"width", "height"});
     view["launch"] = launch_of(root, path);
-    view["table"] = pass_table(root.read(joined_path(path, "passes.csv"), kTableBytes).value_or(""));
+    view["table"] = pass_table(root.read(joined_path(path, kPassesFile), kTableBytes).value_or(""));
     view["log"] = log_lines(root, path);
     return view;
 }

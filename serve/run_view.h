@@ -16,7 +16,7 @@ struct Here {
     std::string host;                      ///< this machine's name
     std::function<bool(int)> has_process;  ///< whether a process of this number lives on this machine
 };
-Here this_place();
+Here local_host();
 
 /// Entry of a run in the list, from its files: name, state, progress, error, version of its picture. Figures of a
 /// missing, incomplete or foreign file are null. `state`: that of status.json; "killed" if that is "running" and its

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/runs/run_files.h"
 #include "serve/file_json.h"
 #include "serve/metrics_text.h"
 #include "serve/page_assets.h"
@@ -60,8 +61,8 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 
 }  // namespace
 
-Site::Site(ConfinedFolder folder, SiteDoor door, std::function<Here()> here)
-    : folder_(std::move(folder)), door_(std::move(door)), here_(std::move(here)) {}
+Site::Site(ConfinedFolder folder, SiteAccess access, std::function<Here()> here)
+    : folder_(std::move(folder)), access_(std::move(access)), here_(std::move(here)) {}
 
 SiteResponse Site::respond(const SiteRequest& request) {
     SiteResponse response;
@@ -81,15 +82,16 @@ SiteResponse Site::respond(const SiteRequest& request) {
 SiteResponse Site::let_in(const SiteRequest& request) {
     const std::string run = parameter(request, "run");
     bool new_cookie = false;
-    if (door_.token.empty()) {
+    if (access_.token.empty()) {
         if (!names_loopback(request.host))
             return refusal(403, "this page is for this machine alone: open it as http://localhost:PORT/");
     } else {
         constexpr const char* kBearer = "Bearer ";
         const std::string& bearer = request.authorization;
-        const bool has_header = bearer.starts_with(kBearer) && equal_in_constant_time(bearer.substr(7), door_.token);
-        const bool has_cookie = equal_in_constant_time(cookie_value(request.cookie, door_.cookie_name), door_.token);
-        const bool has_parameter = equal_in_constant_time(parameter(request, "token"), door_.token);
+        const bool has_header = bearer.starts_with(kBearer) && equal_in_constant_time(bearer.substr(7), access_.token);
+        const bool has_cookie =
+            equal_in_constant_time(cookie_value(request.cookie, access_.cookie_name), access_.token);
+        const bool has_parameter = equal_in_constant_time(parameter(request, "token"), access_.token);
         if (!has_header && !has_cookie && !has_parameter) {
             SiteResponse response = refusal(401,
                                             "a token is needed: open the URL that treefarm serve has printed, or "
@@ -111,7 +113,8 @@ SiteResponse Site::let_in(const SiteRequest& request) {
     else
         response = refusal(404, "there are /, /status.json, /metrics and /preview.png");
     if (new_cookie)
-        response.headers["Set-Cookie"] = door_.cookie_name + "=" + door_.token + "; HttpOnly; SameSite=Strict; Path=/";
+        response.headers["Set-Cookie"] =
+            access_.cookie_name + "=" + access_.token + "; HttpOnly; SameSite=Strict; Path=/";
     return response;
 }
 
@@ -159,7 +162,7 @@ SiteResponse Site::metrics() {
 }
 
 SiteResponse Site::picture(const SiteRequest& request, const std::string& run) const {
-    const std::string path = joined_path(run, "preview.png");
+    const std::string path = joined_path(run, kPreviewFile);
     if (!is_run(folder_, run)) return refusal(404, "there is no such run");
     const auto version = folder_.version(path);
     if (!version) return refusal(404, "there is no picture yet");

@@ -27,7 +27,7 @@ struct SiteResponse {
 };
 
 /// Access rules.
-struct SiteDoor {
+struct SiteAccess {
     std::string token;        ///< required token; "": none, but the Host header must be this machine's
     std::string cookie_name;  ///< cookie in which a browser stores the token
 };
@@ -37,7 +37,7 @@ struct SiteDoor {
 /// Thread-safe.
 class Site {
   public:
-    Site(ConfinedFolder folder, SiteDoor door, std::function<Here()> here = this_place);
+    Site(ConfinedFolder folder, SiteAccess access, std::function<Here()> here = local_host);
 
     SiteResponse respond(const SiteRequest& request);
 
@@ -56,7 +56,7 @@ class Site {
     std::string remembered(const std::string& name, const std::function<std::string()>& make);
 
     const ConfinedFolder folder_;
-    const SiteDoor door_;
+    const SiteAccess access_;
     const std::function<Here()> here_;
     const Timer clock_;
     std::mutex mutex_;

@@ -44,7 +44,7 @@ void fill(httplib::Response& to, const SiteResponse& response) {
     if (response.status != 304) to.set_content(response.body, response.type);
 }
 
-std::string place(const std::string& address, int port) {
+std::string host_and_port(const std::string& address, int port) {
     return (address.find(':') == std::string::npos ? address : "[" + address + "]") + ":" + std::to_string(port);
 }
 
@@ -124,7 +124,7 @@ int WebServer::bind(const std::string& address, int port) {
     const int got = port == 0 ? server_->bind_to_any_port(address) : (server_->bind_to_port(address, port) ? port : -1);
     const int code = errno;
     if (got > 0) return got;
-    const Location where{place(address, port), 0, 0};
+    const Location where{host_and_port(address, port), 0, 0};
     if (code == EADDRINUSE)
         throw InputError(where, "the port is in use", "name another with --port, or --port 0 for any that is free");
     if (code == EACCES) throw InputError(where, "this port is the system's", "name one above 1023 with --port");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "worker/worker_loop.h"
 
-#include <algorithm>
 #include <chrono>
 #include <future>
 #include <random>
@@ -14,9 +13,9 @@
 #include "common/config/job_reader.h"
 #include "common/protocol/fingerprint.h"
 #include "common/protocol/messages.h"
-#include "worker/appetite.h"
 #include "worker/silence_watch.h"
 #include "worker/tracer_pool.h"
+#include "worker/work_prefetch.h"
 
 namespace treefarm {
 
@@ -60,7 +59,7 @@ class WorkerLoop {
           log_(log),
           chain_(channel),
           silence_(settings.silence_seconds),
-          appetite_(settings.threads) {}
+          prefetch_(settings.threads) {}
 
     WorkerEnd run() {
         say_hello();
@@ -165,8 +164,8 @@ class WorkerLoop {
     void on(const Work& m) {
         if (!pass_ || m.pass != pass_->plan().index || !pool_) return;  // of an earlier incarnation
         if (leaving_since_) return;                                     // returned by the good-bye
-        appetite_.receive(m.units.size(), m.units.empty() || m.alone);
-        if (appetite_.nothing_left() && clock_.seconds() - last_update_ > kLeastUpdateSeconds) send_bundle();
+        prefetch_.receive(m.units.size(), m.units.empty() || m.alone);
+        if (prefetch_.nothing_left() && clock_.seconds() - last_update_ > kLeastUpdateSeconds) send_bundle();
         pool_->add(m.units);
     }
 
@@ -312,7 +311,7 @@ class WorkerLoop {
         result_seconds_ = coming_->result_seconds;
         coming_.reset();
         pass_ = std::move(built);
-        appetite_.begin();
+        prefetch_.begin();
         pool_->begin(pass_);
         last_update_ = clock_.seconds();
     }
@@ -320,7 +319,7 @@ class WorkerLoop {
     /// Sends finished units at intervals, and at the end of a pass. A briefly empty queue is not the end: more results
     /// leave the coordinator less time to hand out units.
     void send_finished() {
-        const bool at_end = appetite_.nothing_left() && pool_->idle(), enough = pass_->bundle_bytes() >= kBundleBytes;
+        const bool at_end = prefetch_.nothing_left() && pool_->idle(), enough = pass_->bundle_bytes() >= kBundleBytes;
         if (at_end || enough || clock_.seconds() - last_update_ >= result_seconds_) send_bundle();
     }
 
@@ -333,12 +332,12 @@ class WorkerLoop {
     }
 
     bool well_stocked() const {
-        return pass_ && pool_ && appetite_.is_well_stocked(pass_->plan(), job_.farm.tile_size, pool_->queued());
+        return pass_ && pool_ && prefetch_.is_well_stocked(pass_->plan(), job_.farm.tile_size, pool_->queued());
     }
 
     void ask_for_work() {
         const PassPlan& plan = pass_->plan();
-        const auto more = appetite_.ask(plan, job_.farm.tile_size, pool_->queued());
+        const auto more = prefetch_.request(plan, job_.farm.tile_size, pool_->queued());
         if (!more) return;
         const std::uint64_t paths_each = plan.units.tiles ? plan.unit_spp() : 1;
         tell(Want{incarnation_, plan.index, static_cast<std::uint32_t>(*more), paths_each * pool_->queued_weight()});
@@ -387,7 +386,7 @@ class WorkerLoop {
     std::optional<PassBegin> coming_;  ///< announced, its guide not built yet
     std::future<std::shared_ptr<PassWork>> pass_task_;
     std::shared_ptr<PassWork> pass_;
-    Appetite appetite_;
+    Prefetch prefetch_;
 };
 
 }  // namespace

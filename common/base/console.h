@@ -12,7 +12,7 @@
 namespace treefarm {
 
 /// How much of a log a person sees.
-enum class Loudness {
+enum class Verbosity {
     quiet,    ///< errors
     normal,   ///< what a stranger wants to know
     verbose,  ///< every figure

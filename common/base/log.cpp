@@ -77,9 +77,9 @@ class AppendingSink final : public spdlog::sinks::base_sink<std::mutex> {
 
 /// A file sink in a thread of its own: whoever logs answers workers, too, and cannot wait for a disk that hangs. Of
 /// more lines than the queue holds the oldest are lost; the terminal had them.
-class AsideSink final : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
+class BackgroundFileSink final : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
   public:
-    AsideSink(const std::string& who, const std::filesystem::path& file)
+    BackgroundFileSink(const std::string& who, const std::filesystem::path& file)
         : pool_(std::make_shared<spdlog::details::thread_pool>(kLines, 1)),
           logger_(std::make_shared<spdlog::async_logger>(who, std::make_shared<AppendingSink>(file), pool_,
                                                          spdlog::async_overflow_policy::overrun_oldest)) {
@@ -98,10 +98,10 @@ class AsideSink final : public spdlog::sinks::base_sink<spdlog::details::null_mu
     const std::shared_ptr<spdlog::async_logger> logger_;
 };
 
-MessageLevel least_level(Loudness loudness) {
-    return loudness == Loudness::quiet    ? MessageLevel::error
-           : loudness == Loudness::normal ? MessageLevel::info
-                                          : MessageLevel::detail;
+MessageLevel least_level(Verbosity verbosity) {
+    return verbosity == Verbosity::quiet    ? MessageLevel::error
+           : verbosity == Verbosity::normal ? MessageLevel::info
+                                            : MessageLevel::detail;
 }
 
 }  // namespace
@@ -109,15 +109,15 @@ MessageLevel least_level(Loudness loudness) {
 Log make_log(const std::string& who, const std::filesystem::path& file, const TellMessage& tell) {
     std::vector<spdlog::sink_ptr> sinks;
     if (tell) sinks.push_back(std::make_shared<TellingSink>(tell));
-    if (!file.empty()) sinks.push_back(std::make_shared<AsideSink>(who, file));
+    if (!file.empty()) sinks.push_back(std::make_shared<BackgroundFileSink>(who, file));
     auto log = std::make_shared<spdlog::logger>(who, sinks.begin(), sinks.end());
     log->set_level(spdlog::level::debug);
     log->flush_on(spdlog::level::info);
     return log;
 }
 
-TellMessage console_messages(const std::string& who, const ConsolePtr& console, Loudness loudness) {
-    return [who, console, least = least_level(loudness)](MessageLevel level, const std::string& text) {
+TellMessage console_messages(const std::string& who, const ConsolePtr& console, Verbosity verbosity) {
+    return [who, console, least = least_level(verbosity)](MessageLevel level, const std::string& text) {
         if (level < least) return;
         if (level < MessageLevel::warning) return console->line(text);
         const bool error = level == MessageLevel::error;
@@ -128,8 +128,9 @@ TellMessage console_messages(const std::string& who, const ConsolePtr& console, 
     };
 }
 
-Log make_log(const std::string& who, const std::filesystem::path& file, const ConsolePtr& console, Loudness loudness) {
-    return make_log(who, file, console_messages(who, console, loudness));
+Log make_log(const std::string& who, const std::filesystem::path& file, const ConsolePtr& console,
+             Verbosity verbosity) {
+    return make_log(who, file, console_messages(who, console, verbosity));
 }
 
 }  // namespace treefarm

@@ -25,9 +25,9 @@ Log make_log(const std::string& who, const std::filesystem::path& file, const Te
 
 /// Writes lines to the console, as much as `loudness` says. `who` ("treefarm", "worker 3") stands before warnings and
 /// errors; plain information stands alone.
-TellMessage console_messages(const std::string& who, const ConsolePtr& console, Loudness loudness);
+TellMessage console_messages(const std::string& who, const ConsolePtr& console, Verbosity verbosity);
 
 /// A log that writes to the console, as much as `loudness` says, and everything to a file, if one is named.
-Log make_log(const std::string& who, const std::filesystem::path& file, const ConsolePtr& console, Loudness loudness);
+Log make_log(const std::string& who, const std::filesystem::path& file, const ConsolePtr& console, Verbosity verbosity);
 
 }  // namespace treefarm

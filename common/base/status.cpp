@@ -33,14 +33,14 @@ std::string status_text(const Status& status, int columns) {
     std::vector<std::string> fields;
     for (const std::string& field : status.fields)
         if (!field.empty()) fields.push_back(printable(field));
-    const auto room = [&] { return columns - text_columns(join_fields(fields)); };
+    const auto free_columns = [&] { return columns - text_columns(join_fields(fields)); };
     const bool has_bar = status.fraction >= 0;
-    while (fields.size() > status.essential && room() < (has_bar ? kUsualBar + kBarFrame : 0))
+    while (fields.size() > status.essential && free_columns() < (has_bar ? kUsualBar + kBarFrame : 0))
         fields.pop_back();
-    while (fields.size() > 1 && room() < 0)
+    while (fields.size() > 1 && free_columns() < 0)
         fields.pop_back();
     const std::string text = cut_to_columns(join_fields(fields), columns);
-    const int width = std::min(room() - kBarFrame, kLongestBar);
+    const int width = std::min(free_columns() - kBarFrame, kLongestBar);
     return has_bar && width >= kShortestBar ? bar(status.fraction, width) + text : text;
 }
 

@@ -3,8 +3,6 @@
 
 #include <sys/ioctl.h>
 
-#include <algorithm>
-
 namespace treefarm {
 
 namespace {

@@ -62,7 +62,7 @@ void ChainReceiver::pass_on(const Chunk& chunk) {
     channel_.send(static_cast<int>(next), as_payload(encode(onward)));
 }
 
-bool ChainReceiver::has_room_for(const BlobName& name, std::size_t bytes) const {
+bool ChainReceiver::has_capacity_for(const BlobName& name, std::size_t bytes) const {
     // A piece may overtake the word that announces it. More than a few are somebody's invention.
     constexpr std::size_t kMostNames = 8, kMostBytes = std::size_t{16} << 20;
     std::size_t names = 1;
@@ -84,7 +84,7 @@ std::optional<BlobName> ChainReceiver::take(const Chunk& chunk, double now, int 
     if (from != 0 && mistrusted_.contains(name)) return std::nullopt;
     const auto latest = latest_collected_.find(name.blob);
     if (latest != latest_collected_.end() && name.epoch <= latest->second) return std::nullopt;
-    if (!has_room_for(name, chunk.bytes.size())) return std::nullopt;
+    if (!has_capacity_for(name, chunk.bytes.size())) return std::nullopt;
 
     Assembly& assembly = assemblies_[name];
     if (assembly.total && *assembly.total != chunk.total) return std::nullopt;

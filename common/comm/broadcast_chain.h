@@ -4,7 +4,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <vector>
 
 #include "common/comm/channel.h"
 #include "common/protocol/messages.h"
@@ -71,7 +70,7 @@ class ChainReceiver {
         bool complete() const { return total && bytes.size() == *total; }
     };
     void pass_on(const Chunk& chunk);
-    bool has_room_for(const BlobName& name, std::size_t bytes) const;
+    bool has_capacity_for(const BlobName& name, std::size_t bytes) const;
     void ask(const BlobName& name, Assembly& assembly, double now);
 
     Channel& channel_;

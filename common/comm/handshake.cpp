@@ -69,7 +69,7 @@ Bytes refusal_answer(JoinRefusal refusal) {
     return writer.take();
 }
 
-void DoorHandshake::take(std::span<const std::uint8_t> bytes) {
+void ListenerHandshake::take(std::span<const std::uint8_t> bytes) {
     bytes_ += bytes.size();
     if (bytes_ > kMostUnprovenBytes) throw FormatError("it said much and proved nothing");
     if (!reader_) {
@@ -83,7 +83,7 @@ void DoorHandshake::take(std::span<const std::uint8_t> bytes) {
 }
 
 /// Reads as far as is there, so that a stranger is known by its first bytes.
-void DoorHandshake::read_hello() {
+void ListenerHandshake::read_hello() {
     if (got_.size() < kBeginBytes) return;
     ByteReader reader(got_);
     if (reader.get<std::uint32_t>() != kMagic) throw FormatError("it is no treefarm");
@@ -107,12 +107,12 @@ void DoorHandshake::read_hello() {
     reader_.emplace(keys_.to_coordinator, kMostUnprovenBytes);
 }
 
-void DoorHandshake::turn_away(JoinRefusal refusal) {
+void ListenerHandshake::turn_away(JoinRefusal refusal) {
     answer_ = refusal_answer(refusal);
     throw FormatError(refusal_text(refusal).what);
 }
 
-FrameReader DoorHandshake::take_reader() {
+FrameReader ListenerHandshake::take_reader() {
     reader_->allow(kMostFrameBytes);
     return std::move(*reader_);
 }

@@ -50,10 +50,10 @@ struct SessionKeys {
 inline constexpr std::size_t kMostUnprovenBytes = 4096;
 
 /// Coordinator's end of a connection until the guest is one.
-class DoorHandshake {
+class ListenerHandshake {
   public:
     /// `nonce`: drawn for this connection alone.
-    DoorHandshake(const JoinTicket& ticket, std::uint64_t fingerprint, const JoinKey& nonce)
+    ListenerHandshake(const JoinTicket& ticket, std::uint64_t fingerprint, const JoinKey& nonce)
         : ticket_(ticket), fingerprint_(fingerprint), nonce_(nonce) {}
 
     /// Takes what arrived and returns what to answer. Throws FormatError when it is over; what take_answer() returns is

@@ -24,9 +24,6 @@ struct JoinTicket {
     bool operator==(const JoinTicket&) const = default;
 };
 
-/// Name of the ticket's file in a run directory.
-inline constexpr const char* kTicketFileName = "join";
-
 /// Random bytes of the system. Throws RunError where it has none.
 JoinKey draw_join_key();
 JoinRun draw_join_run();

@@ -72,7 +72,7 @@ class TcpChannel final : public Channel {
         Socket socket;
         std::string from;
         double since;
-        DoorHandshake handshake;
+        ListenerHandshake handshake;
     };
     struct Guest {
         TcpLink link;

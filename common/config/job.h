@@ -46,7 +46,7 @@ inline constexpr float kUsualBootstrap = -1.0f;
 enum class Rule : std::uint8_t {
     usual,          ///< as other keys say; only a job has it, never a resolved one
     always,         ///< to the end
-    while_it_pays,  ///< as finished passes show that it pays (film/guiding_worth.h, film/splitting_gain.h)
+    while_it_pays,  ///< as finished passes show that it pays (film/guiding_efficiency.h, film/splitting_gain.h)
 };
 
 /// How next event chooses among a scene's emitters.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/config/job_keys.h"
 
-#include <cmath>
 #include <limits>
 
 #include "common/base/text/parse_text.h"

@@ -55,18 +55,18 @@ AovLayout::AovLayout(std::span<const AovRequest> requests) : AovLayout() {
     const auto wanted = [&](Aov aov) {
         return std::any_of(requests.begin(), requests.end(), [&](const AovRequest& r) { return r.aov == aov; });
     };
-    const auto place = [&](Aov aov) {
+    const auto append = [&](Aov aov) {
         at_[static_cast<std::size_t>(aov)] = size_;
         size_ += static_cast<std::uint32_t>(std::strlen(kind_of(aov).components));
     };
     if (wanted(Aov::alpha) || wanted(Aov::depth) || wanted(Aov::distance) || wanted(Aov::position) || wanted(Aov::uv))
-        place(Aov::alpha);
+        append(Aov::alpha);
     for (const Aov aov :
          {Aov::albedo, Aov::normal, Aov::geometric_normal, Aov::depth, Aov::distance, Aov::position, Aov::uv})
-        if (wanted(aov)) place(aov);
+        if (wanted(aov)) append(aov);
     id_begin_ = size_;
     for (const Aov aov : {Aov::shape, Aov::material})
-        if (wanted(aov)) place(aov);
+        if (wanted(aov)) append(aov);
     direct_ = wanted(Aov::direct) || wanted(Aov::indirect);
 }
 

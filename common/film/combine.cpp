@@ -157,7 +157,7 @@ std::vector<double> inverse_variance_weights(std::span<const PassResult> passes,
         const std::optional<double>& variance = group.noise.half[std::size_t(half)].variance;
         const std::uint32_t spp = spp_of(group.passes);
         apart = apart || group.passes.front().new_technique;
-        const bool known = variance && spp >= kPolicy.schedule.least_weighed_spp;
+        const bool known = variance && spp >= tuned<std::uint32_t>("schedule.least_weighed_spp");
         if (known || young_count)
             std::ranges::copy(group.noise.half[std::size_t(1 - half)].samples, samples.begin() + std::ptrdiff_t(first));
         if (known) {
@@ -183,7 +183,7 @@ std::vector<double> inverse_variance_weights(std::span<const PassResult> passes,
 /// single sample has but its distance from what the longest pass says.
 Rgb64 sample_variance(const PixelEstimate& pixel, const PixelEstimate& longest) {
     const std::uint32_t n = pixel.half[0].n + pixel.half[1].n;
-    if (n >= kPolicy.schedule.least_weighed_spp)
+    if (n >= tuned<std::uint32_t>("schedule.least_weighed_spp"))
         return (pixel.half[0].m2 + pixel.half[1].m2) / static_cast<double>(n - 2);
     if (n >= 2) return pixel.whole().sample_variance();
     const Moments reference = longest.whole();

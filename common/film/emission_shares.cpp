@@ -6,8 +6,6 @@
 #include <functional>
 #include <numeric>
 
-#include "common/base/policy.h"
-
 namespace treefarm {
 
 std::vector<float> emission_emphasis(const EmissionSums& sums) {
@@ -17,13 +15,14 @@ std::vector<float> emission_emphasis(const EmissionSums& sums) {
         squares += static_cast<double>(sums.squares[i]);
     }
     if (sums.paths.size() < 2 || !(squares > 0)) return {};
-    // An emitter of which little is known is taken to be as all are.
-    const double prior = kPolicy.light_subpaths.prior_paths, usual = squares / paths;
+    // An emitter of which little is known is taken to be as all are: so many paths count as if they had brought that.
+    constexpr double kPrior = 128.0;
+    const double usual = squares / paths;
     std::vector<float> emphasis;
     emphasis.reserve(sums.paths.size());
     for (std::size_t i = 0; i < sums.paths.size(); ++i)
-        emphasis.push_back(static_cast<float>(std::sqrt((static_cast<double>(sums.squares[i]) / usual + prior) /
-                                                        (static_cast<double>(sums.paths[i]) + prior))));
+        emphasis.push_back(static_cast<float>(std::sqrt((static_cast<double>(sums.squares[i]) / usual + kPrior) /
+                                                        (static_cast<double>(sums.paths[i]) + kPrior))));
     return emphasis;
 }
 

@@ -132,7 +132,7 @@ ErrorEstimate estimate_error(const CombinedImage& image, std::uint64_t seed) {
     const std::vector<BlockError> blocks = sum_blocks(image);
     const BlockError whole = total(blocks);
     estimate.rmse = estimate.low = estimate.high = std::sqrt(whole.by_variance / (3 * count));
-    estimate.has_interval = image.longest_pass >= kPolicy.schedule.least_weighed_spp;
+    estimate.has_interval = image.longest_pass >= tuned<std::uint32_t>("schedule.least_weighed_spp");
     if (!estimate.has_interval || !(whole.by_variance > 0 && whole.by_halves > 0)) return estimate;
     // (error^2 - variance) has the same spread as (halves' difference^2 - variance), which can be looked at: both are
     // squares of half the sum or difference of the same two independent errors. Only the spread is taken from there.

@@ -11,7 +11,7 @@
 namespace treefarm {
 namespace {
 
-constexpr std::size_t kBlock = kPolicy.levels.block;
+constexpr std::size_t kBlock = kLevelBlock;
 
 std::size_t blocks_of(std::size_t pixels) {
     return (pixels + kBlock - 1) / kBlock;
@@ -55,7 +55,7 @@ ImageLevels image_levels(std::span<const Rgb64> image, std::size_t width) {
         counts[block] += 1;
         all += y;
     }
-    const double least = kPolicy.levels.least * all / static_cast<double>(image.size());
+    const double least = tuned("levels.least") * all / static_cast<double>(image.size());
     constexpr double kBlack = 1e-30;  // one over less is no float
     if (!(least > kBlack)) return levels;
     for (std::size_t b = 0; b < sums.size(); ++b)

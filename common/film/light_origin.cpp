@@ -4,19 +4,19 @@
 namespace treefarm {
 namespace {
 
-const char* words(LightWay way) {
-    switch (way) {
-        case LightWay::diffuse:
+const char* words(PathClass path_class) {
+    switch (path_class) {
+        case PathClass::diffuse:
             return " off diffuse surfaces";
-        case LightWay::glossy:
+        case PathClass::glossy:
             return " off glossy surfaces";
-        case LightWay::mirror:
+        case PathClass::mirror:
             return " in mirrors";
-        case LightWay::smooth_glass:
+        case PathClass::smooth_glass:
             return " through smooth glass";
-        case LightWay::rough_glass:
+        case PathClass::rough_glass:
             return " through rough glass";
-        case LightWay::sheet:
+        case PathClass::sheet:
             return " through thin sheets that scatter it";
     }
     return "";
@@ -25,7 +25,7 @@ const char* words(LightWay way) {
 }  // namespace
 
 bool is_known(const LightOrigin& origin) {
-    return origin.found <= LightFound::sky_sampled && origin.way <= LightWay::sheet;
+    return origin.found <= LightFound::sky_sampled && origin.path_class <= PathClass::sheet;
 }
 
 std::string words(const LightOrigin& origin) {
@@ -33,7 +33,7 @@ std::string words(const LightOrigin& origin) {
     const bool sampled = origin.found == LightFound::sampled || origin.found == LightFound::sky_sampled;
     const std::string light = of_sky ? "light of the environment" : "light";
     if (origin.vertices <= 1 && !sampled) return light + " that the camera sees";
-    return light + words(origin.way) + (sampled ? ", sampled by next event" : ", met by chance");
+    return light + words(origin.path_class) + (sampled ? ", sampled by next event" : ", met by chance");
 }
 
 }  // namespace treefarm

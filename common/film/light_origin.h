@@ -17,12 +17,12 @@ enum class LightFound : std::uint8_t {
 /// What a path has passed, as far as that makes light hard to find: the last in this order that it did. What the camera
 /// sees by way of mirrors and smooth glass alone does not count, if the path scatters behind that. On the wire: append
 /// only.
-enum class LightWay : std::uint8_t { diffuse, glossy, mirror, smooth_glass, rough_glass, sheet };
+enum class PathClass : std::uint8_t { diffuse, glossy, mirror, smooth_glass, rough_glass, sheet };
 
 /// Where a contribution to a sample comes from.
 struct LightOrigin {
     LightFound found = LightFound::met;
-    LightWay way = LightWay::diffuse;
+    PathClass path_class = PathClass::diffuse;
     std::uint8_t vertices = 0;  ///< surfaces of the path, the emitter included; 255: as many or more
 
     bool operator==(const LightOrigin&) const = default;

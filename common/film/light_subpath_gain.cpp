@@ -23,13 +23,13 @@ double missed_light_noise(const LightSubpathSums& sums) {
     const double variance = mean(sums.both_variance);
     const double error = std::sqrt((variance + mean(sums.alone_variance)) / samples);
     const double missed = mean(sums.both_mean) - mean(sums.alone_mean);
-    return missed > kPolicy.light_subpaths.missed_errors * error ? missed * missed * samples / variance : 0.0;
+    return missed > tuned("light_subpaths.missed_errors") * error ? missed * missed * samples / variance : 0.0;
 }
 
 }  // namespace
 
 void SubpathPairs::add(const Sample& sample) {
-    constexpr double kMost = kPolicy.light_subpaths.most_of_mean;
+    constexpr double kMost = tuned("light_subpaths.most_of_mean");
     if (!(sample.own >= 0 && sample.alone >= 0 && sample.splat_squares >= 0) ||
         !std::isfinite(sample.own + sample.alone + sample.splats + sample.splat_squares))
         return;
@@ -58,7 +58,7 @@ void SubpathPairs::finish(LightSubpathSums& sums) {
 }
 
 double LightSubpathGain::at_equal_cost() const {
-    const double cost = rays * kPolicy.light_subpaths.ray_cost;
+    const double cost = rays * tuned("light_subpaths.ray_cost");
     return cost > 0 ? noise / cost : 0.0;
 }
 

@@ -40,7 +40,7 @@ struct LightSubpathGain {
     double rays = 0;  ///< of samples with them over those without
     /// Mean of the samples without them over that with them, which is 1 but for chance and for light that only they
     /// find. Where it is low nobody knows how noisy samples without them are.
-    double found = 0;
+    double mean_ratio = 0;
 
     /// Noise at equal cost without them, over that with them: above 1 they pay. 0: not known.
     double at_equal_cost() const;

@@ -118,12 +118,12 @@ bool SplatMoments::empty() const {
 void SplatLog::SummedEntries::clear() {
     entries.clear();
     summed = 0;
-    room = kLogEntries;
+    summing_size = kLogEntries;
 }
 
 void SplatLog::SummedEntries::push(const Entry& entry) {
     entries.push_back(entry);
-    if (entries.size() >= room) sum_up();
+    if (entries.size() >= summing_size) sum_up();
 }
 
 void SplatLog::SummedEntries::sum_up() {
@@ -141,7 +141,8 @@ void SplatLog::SummedEntries::sum_up() {
     }
     entries.resize(last + 1);
     summed = entries.size();
-    room = std::max(kLogEntries, 2 * summed);  // a unit that reaches many pixels is not summed up again and again
+    summing_size =
+        std::max(kLogEntries, 2 * summed);  // a unit that reaches many pixels is not summed up again and again
 }
 
 void SplatLog::begin(const SplatShape& shape) {

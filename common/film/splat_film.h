@@ -82,8 +82,8 @@ class SplatLog {
   private:
     struct SummedEntries {
         std::vector<Entry> entries;
-        std::size_t summed = 0;  ///< entries before this one are in order, one per slot
-        std::size_t room = 0;    ///< entries from which on they are summed up
+        std::size_t summed = 0;        ///< entries before this one are in order, one per slot
+        std::size_t summing_size = 0;  ///< entries from which on they are summed up
 
         void clear();
         void push(const Entry& entry);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-
 #include "common/film/trace_stats.h"
 
 namespace treefarm {
@@ -37,7 +35,7 @@ struct SplittingGain {
     double rays = 0;      ///< of split samples over those of unsplit ones
     /// Mean of the unsplit samples over that of the split ones, which is 1 but for chance. Where it is low unsplit
     /// samples have missed rare light, and nobody knows how noisy they are.
-    double found = 0;
+    double mean_ratio = 0;
 };
 SplittingGain splitting_gain(const TraceStats& stats);
 

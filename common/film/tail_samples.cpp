@@ -5,9 +5,12 @@
 #include <limits>
 #include <tuple>
 
-#include "common/base/policy.h"
-
 namespace treefarm {
+namespace {
+
+constexpr double kOutlier = 0.25;  ///< of a pixel's variance, that a sample makes alone
+
+}  // namespace
 
 bool comes_before(const TailSample& a, const TailSample& b) {
     return std::tuple(b.noise, a.pass, a.y, a.x, a.sample) < std::tuple(a.noise, b.pass, b.y, b.x, b.sample);
@@ -18,7 +21,7 @@ float outlier_noise(const Rgb& value, const Moments& pixel, std::uint32_t spp) {
     const Rgb64 distance = Rgb64(value) - pixel.mean;
     const double own = luminance(distance * distance);
     // Of few samples each is a large part, and no outlier.
-    const double least = std::max(kPolicy.tails.outlier, 2.0 / pixel.n);
+    const double least = std::max(kOutlier, 2.0 / pixel.n);
     if (!(own > 0) || own < least * luminance(pixel.m2)) return 0.0f;
     const double noise = own / (static_cast<double>(spp) * (spp - 1.0));
     constexpr double kLeast = std::numeric_limits<float>::min(), kMost = std::numeric_limits<float>::max();

@@ -25,7 +25,7 @@ struct TailSample {
 bool comes_before(const TailSample& a, const TailSample& b);
 
 /// Noise of the largest sample of a pixel that has `spp` in the pass; `pixel` are those that are known. 0 unless it is
-/// a good part of the pixel's variance (kPolicy.tails.outlier): a lamp seen directly has no noise, and where all
+/// a quarter of the pixel's variance: a lamp seen directly has no noise, and where all
 /// samples differ alike none of them is to blame.
 float outlier_noise(const Rgb& value, const Moments& pixel, std::uint32_t spp);
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/film/guiding_worth.h"
+#include "common/film/guiding_efficiency.h"
 #include "common/film/tail_samples.h"
 #include "common/math/next_event_sums.h"
 

@@ -3,14 +3,15 @@
 
 #include <cstddef>
 
-#include "common/base/policy.h"
-
 namespace treefarm {
+
+/// Side of the blocks of pixels by whose light noise is judged.
+inline constexpr std::size_t kLevelBlock = 8;
 
 /// Number of the block of pixels about (x, y), by whose light noise is judged, in an image with rows of `columns`
 /// blocks.
 inline std::size_t level_block(std::size_t x, std::size_t y, std::size_t columns) {
-    return y / kPolicy.levels.block * columns + x / kPolicy.levels.block;
+    return y / kLevelBlock * columns + x / kLevelBlock;
 }
 
 }  // namespace treefarm

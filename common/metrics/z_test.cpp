@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "common/base/error.h"
 #include "common/metrics/error_metrics.h"
 #include "common/metrics/normal_distribution.h"
 

@@ -5,7 +5,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <vector>
 
 #include "common/base/bytes.h"
 #include "common/base/hash.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/protocol/result_codec.h"
 
-#include <array>
-
 namespace treefarm {
 
 namespace {
@@ -118,7 +116,7 @@ void write_stats(ByteWriter& writer, const TraceStats& s) {
         writer.put(sample.y);
         writer.put(sample.sample);
         writer.put(static_cast<std::uint8_t>(sample.origin.found));
-        writer.put(static_cast<std::uint8_t>(sample.origin.way));
+        writer.put(static_cast<std::uint8_t>(sample.origin.path_class));
         writer.put(sample.origin.vertices);
     }
 }
@@ -133,7 +131,7 @@ TailSample read_tail(ByteReader& reader) {
     sample.y = reader.get<std::uint16_t>();
     sample.sample = reader.get<std::uint32_t>();
     sample.origin.found = static_cast<LightFound>(reader.get<std::uint8_t>());
-    sample.origin.way = static_cast<LightWay>(reader.get<std::uint8_t>());
+    sample.origin.path_class = static_cast<PathClass>(reader.get<std::uint8_t>());
     sample.origin.vertices = reader.get<std::uint8_t>();
     if (!is_known(sample.origin)) throw FormatError("light that comes from nowhere");
     return sample;

@@ -138,7 +138,7 @@ LoadedCheckpoint load_checkpoint(const fs::path& run, const std::function<void(c
     for (const Candidate& candidate : candidates)
         faults += (faults.empty() ? "" : "; ") + candidate.path.filename().string() + " " + candidate.fault;
     throw InputError(Location{folder.string(), 0, 0}, "no usable checkpoint (" + faults + ")",
-                     "start again with: treefarm render " + shell_quoted((run / "job.toml").string()));
+                     "start again with: treefarm render " + shell_quoted((run / kJobFile).string()));
 }
 
 CheckpointStore::CheckpointStore(const fs::path& run, const LoadedCheckpoint* loaded)

@@ -12,14 +12,12 @@
 #include <string>
 #include <vector>
 
+#include "common/runs/run_files.h"
 #include "coordinator/checkpoint/state_codec.h"
 
 namespace treefarm {
 
-/// Folder of the checkpoints in a run directory.
-inline constexpr const char* kCheckpointFolder = "checkpoint";
-
-/// A checkpoint read from disk.
+/// A checkpoint as it was read.
 struct LoadedCheckpoint {
     std::uint64_t generation = 0;
     std::uint64_t newest = 0;  ///< highest generation in either file, usable or not

@@ -60,7 +60,7 @@ void serialize(Archive& a, EmissionSums& s) {
 
 template <class Archive>
 void serialize(Archive& a, LightSubpathGain& g) {
-    a(g.noise, g.rays, g.found);
+    a(g.noise, g.rays, g.mean_ratio);
 }
 
 /// All fields but threads, which may change on resume.
@@ -112,7 +112,7 @@ void serialize(Archive& a, InvalidSample& s) {
 
 template <class Archive>
 void serialize(Archive& a, TailSample& s) {
-    a(s.noise, s.pass, s.x, s.y, s.sample, s.origin.found, s.origin.way, s.origin.vertices);
+    a(s.noise, s.pass, s.x, s.y, s.sample, s.origin.found, s.origin.path_class, s.origin.vertices);
 }
 
 template <class Archive>
@@ -128,13 +128,13 @@ void serialize(Archive& a, PassVariance& v) {
 }
 
 template <class Archive>
-void serialize(Archive& a, GuidingWorth& w) {
-    a(w.worth, w.error, w.known, w.unguided_variance, w.guided_variance, w.unguided_cost, w.guided_cost);
+void serialize(Archive& a, GuidingEfficiency& w) {
+    a(w.efficiency, w.error, w.known, w.unguided_variance, w.guided_variance, w.unguided_cost, w.guided_cost);
 }
 
 template <class Archive>
 void serialize(Archive& a, SplittingGain& g) {
-    a(g.variance, g.rays, g.found);
+    a(g.variance, g.rays, g.mean_ratio);
 }
 
 template <class Archive>
@@ -166,8 +166,8 @@ void serialize(Archive& a, RefineReport& r) {
 
 template <class Archive>
 void serialize(Archive& a, PassReport& r) {
-    a(r.plan, r.spp_done, r.workers, r.threads, r.seconds, r.stats, r.variance, r.error, r.guiding_worth, r.guiding,
-      r.splitting_gain, r.splitting, r.light_subpath_gain, r.light_subpaths, r.emitters, r.emitters_of_half,
+    a(r.plan, r.spp_done, r.workers, r.threads, r.seconds, r.stats, r.variance, r.error, r.guiding_efficiency,
+      r.guiding, r.splitting_gain, r.splitting, r.light_subpath_gain, r.light_subpaths, r.emitters, r.emitters_of_half,
       r.run_seconds, r.halving, r.target, r.tree, r.update_bytes, r.touched_cells, r.caps, r.splat_caps, r.splat_bytes,
       r.saturated_splats, r.refine);
 }
@@ -178,15 +178,15 @@ void serialize(Archive& a, WorkUnit& u) {
 }
 
 template <class Archive>
-void serialize(Archive& a, DeadlyUnit& d) {
+void serialize(Archive& a, PoisonUnit& d) {
     a(d.unit, d.deaths);
 }
 
 /// All fields but the layers, which are sections of their own.
 template <class Archive>
-void serialize(Archive& a, BegunPass& p) {
-    a(p.plan, p.memory, p.done, p.stats, p.update_bytes, p.splat_bytes, p.touched_cells, p.deadly, p.collect_seconds,
-      p.run_seconds);
+void serialize(Archive& a, PartialPass& p) {
+    a(p.plan, p.memory, p.done, p.stats, p.update_bytes, p.splat_bytes, p.touched_cells, p.poison_units,
+      p.collect_seconds, p.run_seconds);
 }
 
 template <class Archive>
@@ -198,20 +198,20 @@ namespace {
 
 constexpr std::uint32_t kOrigin = section_tag("IDNT"), kHistory = section_tag("FACT"), kFilms = section_tag("FILM"),
                         kAovs = section_tag("AOVS"), kModel = section_tag("MODL"), kLearner = section_tag("LERN"),
-                        kReports = section_tag("RPRT"), kBegun = section_tag("OPEN"), kBegunFilm = section_tag("PFLM"),
-                        kBegunAovs = section_tag("PAOV"), kBegunSplats = section_tag("PSPL"),
-                        kBegunSums = section_tag("PSUM");
+                        kReports = section_tag("RPRT"), kPartial = section_tag("OPEN"),
+                        kPartialFilm = section_tag("PFLM"), kPartialAovs = section_tag("PAOV"),
+                        kPartialSplats = section_tag("PSPL"), kPartialSums = section_tag("PSUM");
 
 constexpr std::uint32_t version_of(std::uint32_t tag) {
-    if (tag == kHistory || tag == kReports || tag == kBegun) return 5;
+    if (tag == kHistory || tag == kReports || tag == kPartial) return 5;
     return tag == kLearner ? 2 : 1;
 }
 
 /// `room`: capacity to reserve in bytes, for large sections.
 template <class... T>
-Section section_with_room(std::size_t room, std::uint32_t tag, const T&... values) {
+Section section_with_capacity(std::size_t capacity, std::uint32_t tag, const T&... values) {
     ByteWriter writer;
-    writer.reserve(room);
+    writer.reserve(capacity);
     WriteArchive archive(writer);
     archive(values...);
     return {tag, version_of(tag), writer.take()};
@@ -219,7 +219,7 @@ Section section_with_room(std::size_t room, std::uint32_t tag, const T&... value
 
 template <class... T>
 Section section(std::uint32_t tag, const T&... values) {
-    return section_with_room(0, tag, values...);
+    return section_with_capacity(0, tag, values...);
 }
 
 /// Upper bound of the bytes of a pixel's AOV sums, with all AOVs.
@@ -265,55 +265,55 @@ namespace {
 /// All sections but the layers of a partial pass.
 std::vector<Section> encode_fields(const CheckpointOrigin& origin, const RenderState& state) {
     // Reserved at once: growth would copy it, with both copies in memory.
-    const std::size_t room = state.aovs.requested() ? 64 + most_aov_bytes() * origin.pixels : 0;
+    const std::size_t capacity = state.aovs.requested() ? 64 + most_aov_bytes() * origin.pixels : 0;
     std::vector<Section> sections;  // an initialiser list would copy each
     sections.push_back(section(kOrigin, origin));
     sections.push_back(section(kHistory, state.history, state.guiding_memory));
     sections.push_back(section(kFilms, state.films));
-    sections.push_back(section_with_room(room, kAovs, state.aovs));
+    sections.push_back(section_with_capacity(capacity, kAovs, state.aovs));
     sections.push_back(section(kModel, state.tree.encode(), state.last_tree, state.tree_hash));
     sections.push_back(section(kLearner, state.learner, state.image_next_event));
     sections.push_back(section(kReports, state.reports));
-    if (state.begun) sections.push_back(section(kBegun, *state.begun));
+    if (state.partial) sections.push_back(section(kPartial, *state.partial));
     return sections;
 }
 
 /// Layers of a partial pass.
-std::array<std::pair<std::uint32_t, Bytes BegunPass::*>, 4> begun_layers() {
-    return {{{kBegunFilm, &BegunPass::film},
-             {kBegunAovs, &BegunPass::aovs},
-             {kBegunSplats, &BegunPass::splats},
-             {kBegunSums, &BegunPass::sums}}};
+std::array<std::pair<std::uint32_t, Bytes PartialPass::*>, 4> partial_layers() {
+    return {{{kPartialFilm, &PartialPass::film},
+             {kPartialAovs, &PartialPass::aovs},
+             {kPartialSplats, &PartialPass::splats},
+             {kPartialSums, &PartialPass::sums}}};
 }
 
 }  // namespace
 
 std::vector<Section> encode_state(const CheckpointOrigin& origin, const RenderState& state) {
     std::vector<Section> sections = encode_fields(origin, state);
-    if (state.begun)
-        for (const auto& [tag, layer] : begun_layers())
-            sections.push_back({tag, version_of(tag), *state.begun.*layer});
+    if (state.partial)
+        for (const auto& [tag, layer] : partial_layers())
+            sections.push_back({tag, version_of(tag), *state.partial.*layer});
     return sections;
 }
 
 std::vector<Section> take_state(const CheckpointOrigin& origin, RenderState& state) {
     std::vector<Section> sections = encode_fields(origin, state);
-    if (state.begun)
-        for (const auto& [tag, layer] : begun_layers())
-            sections.push_back({tag, version_of(tag), std::move(*state.begun.*layer)});
-    state.begun.reset();
+    if (state.partial)
+        for (const auto& [tag, layer] : partial_layers())
+            sections.push_back({tag, version_of(tag), std::move(*state.partial.*layer)});
+    state.partial.reset();
     return sections;
 }
 
 /// Partial pass of a state, if it has one.
-std::optional<BegunPass> decode_begun(const SectionFile& file, std::size_t pixels) {
-    if (!file.has(kBegun)) return std::nullopt;
-    BegunPass begun;
-    read(file, kBegun, begun);
-    for (const auto& [tag, layer] : begun_layers())
-        begun.*layer = file.at(tag, version_of(tag)).bytes;
-    require(begun.plan.spp > 0 && has_possible_units(begun, pixels), "a partial pass of another image");
-    return begun;
+std::optional<PartialPass> decode_partial(const SectionFile& file, std::size_t pixels) {
+    if (!file.has(kPartial)) return std::nullopt;
+    PartialPass partial;
+    read(file, kPartial, partial);
+    for (const auto& [tag, layer] : partial_layers())
+        partial.*layer = file.at(tag, version_of(tag)).bytes;
+    require(partial.plan.spp > 0 && has_possible_units(partial, pixels), "a partial pass of another image");
+    return partial;
 }
 
 CheckpointOrigin decode_origin(const SectionFile& file) {
@@ -334,13 +334,14 @@ RenderState decode_state(const SectionFile& file, std::size_t pixels, std::span<
     read(file, kLearner, state.learner, state.image_next_event);
     read(file, kReports, state.reports);
     require(state.history.guiding <= Guiding::loses, "an unknown verdict on guiding");
-    state.begun = decode_begun(file, pixels);
-    require(fits(state.history.emission) && (!state.begun || fits(state.begun->stats.emission)),
+    state.partial = decode_partial(file, pixels);
+    require(fits(state.history.emission) && (!state.partial || fits(state.partial->stats.emission)),
             "light paths without their splats");
     require(state.reports.size() == state.history.passes.size(), "not a report for each pass");
-    require(!state.reports.empty() || state.begun, "no pass");
+    require(!state.reports.empty() || state.partial, "no pass");
     require(state.films.empty() == state.reports.empty(), "no film");
-    require(!state.begun || state.begun->plan.index == state.reports.size(), "a partial pass that is not the next one");
+    require(!state.partial || state.partial->plan.index == state.reports.size(),
+            "a partial pass that is not the next one");
     for (std::size_t k = 0; k < state.films.size(); ++k) {
         require(is_film_name(state.films[k].stored), "a film without a file");
         require(fits(state.films[k].noise, state.films.size() - k), "noise of other films");

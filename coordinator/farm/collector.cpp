@@ -109,7 +109,7 @@ Verdict Collector::take(int worker, Result result, Ledger& ledger) {
     }
     check_stats(result);
     check_splats(result);
-    if (result.pass != plan_.index) return Verdict::lie;
+    if (result.pass != plan_.index) return Verdict::protocol_error;
     if (const Verdict verdict = ledger.judge(worker, units); verdict != Verdict::accepted) {
         if (verdict == Verdict::late) ledger.drop(worker, units);
         return verdict;
@@ -137,34 +137,34 @@ Verdict Collector::take(int worker, Result result, Ledger& ledger) {
     return Verdict::accepted;
 }
 
-void Collector::fill(BegunPass& begun) const {
-    begun.plan = plan_;
-    begun.done = done_;
-    if (plan_.layers.estimates) begun.film = film_.encode(done_);
-    begun.aovs = aovs_.encode(done_);
-    if (plan_.layers.splats.pixels > 0) begun.splats = splats_.encode();
-    if (plan_.record) begun.sums = sums_.encode();
-    begun.stats = totals();
-    begun.update_bytes = update_bytes_;
-    begun.splat_bytes = splat_bytes_;
-    begun.touched_cells = touched_cells_;
+void Collector::fill(PartialPass& partial) const {
+    partial.plan = plan_;
+    partial.done = done_;
+    if (plan_.layers.estimates) partial.film = film_.encode(done_);
+    partial.aovs = aovs_.encode(done_);
+    if (plan_.layers.splats.pixels > 0) partial.splats = splats_.encode();
+    if (plan_.record) partial.sums = sums_.encode();
+    partial.stats = totals();
+    partial.update_bytes = update_bytes_;
+    partial.splat_bytes = splat_bytes_;
+    partial.touched_cells = touched_cells_;
 }
 
-void Collector::restore(const BegunPass& begun) {
+void Collector::restore(const PartialPass& partial) {
     const auto pixels = static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
-    if (!(begun.plan == plan_) || !has_possible_units(begun, pixels)) throw FormatError("units of another pass");
-    if (begun.film.empty() != (begun.done.estimate_count() == 0 || !plan_.layers.estimates) ||
-        begun.splats.empty() != (plan_.layers.splats.pixels == 0) || begun.sums.empty() == plan_.record)
+    if (!(partial.plan == plan_) || !has_possible_units(partial, pixels)) throw FormatError("units of another pass");
+    if (partial.film.empty() != (partial.done.estimate_count() == 0 || !plan_.layers.estimates) ||
+        partial.splats.empty() != (plan_.layers.splats.pixels == 0) || partial.sums.empty() == plan_.record)
         throw FormatError("layers that differ from the pass's");
-    if (plan_.layers.estimates) film_.restore(begun.done, begun.film);
-    aovs_.restore(begun.done, begun.aovs);
-    if (!begun.splats.empty()) splats_.merge_encoded(begun.splats);
-    if (plan_.record) sums_.merge_encoded(begun.sums);
-    done_ = begun.done;
-    earlier_ = begun.stats;
-    update_bytes_ = begun.update_bytes;
-    splat_bytes_ = begun.splat_bytes;
-    touched_cells_ = begun.touched_cells;
+    if (plan_.layers.estimates) film_.restore(partial.done, partial.film);
+    aovs_.restore(partial.done, partial.aovs);
+    if (!partial.splats.empty()) splats_.merge_encoded(partial.splats);
+    if (plan_.record) sums_.merge_encoded(partial.sums);
+    done_ = partial.done;
+    earlier_ = partial.stats;
+    update_bytes_ = partial.update_bytes;
+    splat_bytes_ = partial.splat_bytes;
+    touched_cells_ = partial.touched_cells;
 }
 
 std::span<const PixelEstimate> Collector::pixels_so_far() const {

@@ -11,8 +11,8 @@
 #include "common/guiding/any_guide.h"
 #include "common/guiding/statistics/cell_sums.h"
 #include "common/protocol/messages.h"
-#include "coordinator/farm/begun_pass.h"
 #include "coordinator/farm/ledger.h"
+#include "coordinator/farm/partial_pass.h"
 
 namespace treefarm {
 
@@ -34,10 +34,10 @@ class Collector {
     Verdict take(int worker, Result result, Ledger& ledger);
 
     /// Copies the results received so far: the pass, finished units, layers, sums and figures.
-    void fill(BegunPass& begun) const;
+    void fill(PartialPass& partial) const;
     /// Restores the results that fill() copied, before anything else. Throws FormatError if they are of another pass or
     /// image; the collector is then unusable.
-    void restore(const BegunPass& begun);
+    void restore(const PartialPass& partial);
 
     /// Pixels of the incomplete pass, for a preview; empty if they are only one layer of it.
     std::span<const PixelEstimate> pixels_so_far() const;

@@ -70,7 +70,7 @@ void Farm::gather(const std::function<bool()>& interrupted) {
 }
 
 void Farm::begin_pass(const PassPlan& plan, const AnyModel& tree, Bytes encoded_tree, int width, int height,
-                      const BegunPass* begun) {
+                      const PartialPass* partial) {
     const std::uint64_t hash = hash_bytes(encoded_tree);
     pass_ = OpenPass{plan, std::move(encoded_tree), hash};
     if (ledger_) copied_units_ += ledger_->copies();
@@ -79,7 +79,7 @@ void Farm::begin_pass(const PassPlan& plan, const AnyModel& tree, Bytes encoded_
     requested_ = false;
     not_ready_.clear();
     copied_.clear();
-    askers_.clear();
+    requests_.clear();
     for (Member* member : roster_.present()) {
         member->credit = 0;
         member->queued = 0;
@@ -90,29 +90,29 @@ void Farm::begin_pass(const PassPlan& plan, const AnyModel& tree, Bytes encoded_
     if (!std::exchange(scene_sent_, true)) send_blob(Blob::scene, 0, chain_without_scene());
     send_blob(Blob::tree, 0, chain_of_present());
     // Allocating sums takes time, as does unpacking the tree on the workers.
-    open_books(tree, width, height, begun);
+    open_books(tree, width, height, partial);
 }
 
-void Farm::open_books(const AnyModel& tree, int width, int height, const BegunPass* begun) {
+void Farm::open_books(const AnyModel& tree, int width, int height, const PartialPass* partial) {
     const PassPlan& plan = pass_->plan;
     const auto new_collector = [&] {
         return std::make_unique<Collector>(plan, tree, width, height, negative_allowed_, AovLayout(aov_requests(job_)));
     };
     collector_ = new_collector();
     try {
-        if (begun) collector_->restore(*begun);
+        if (partial) collector_->restore(*partial);
     } catch (const FormatError& error) {
         log_->warn("the partial results of pass {} are unusable ({}): it is traced again", plan.index, error.what());
         collector_ = new_collector();
-        begun = nullptr;
+        partial = nullptr;
     }
-    ledger_ = std::make_unique<Ledger>(plan, width, height, job_.farm.tile_size, begun ? begun->done : DoneWork(),
-                                       begun ? begun->deadly : std::vector<DeadlyUnit>());
+    ledger_ = std::make_unique<Ledger>(plan, width, height, job_.farm.tile_size, partial ? partial->done : DoneWork(),
+                                       partial ? partial->poison_units : std::vector<PoisonUnit>());
 }
 
-void Farm::fill(BegunPass& begun) const {
-    collector_->fill(begun);
-    begun.deadly = ledger_->deadly();
+void Farm::fill(PartialPass& partial) const {
+    collector_->fill(partial);
+    partial.poison_units = ledger_->poison_units();
 }
 
 void Farm::announce(int peer) {
@@ -146,12 +146,12 @@ bool Farm::may_have_copy(Blob blob, int peer) {
 
 /// Sends requested blobs. Workers behind one that died in the chain ask at about the same time: they get one copy,
 /// along one chain.
-void Farm::serve_askers() {
-    for (auto& [blob, askers] : askers_) {
-        if (askers.offsets.empty() || clock_.seconds() - askers.since < limits_.asking) continue;
+void Farm::serve_requests() {
+    for (auto& [blob, requests] : requests_) {
+        if (requests.offsets.empty() || clock_.seconds() - requests.since < limits_.asking) continue;
         std::vector<std::uint32_t> chain;
         std::uint64_t offset = ~std::uint64_t{0};
-        for (const auto& [peer, from] : askers.offsets) {
+        for (const auto& [peer, from] : requests.offsets) {
             const Member* member = roster_.find(peer);
             if (!member || member->state != MemberState::present) continue;
             // an earlier copy may be in flight
@@ -159,7 +159,7 @@ void Farm::serve_askers() {
             chain.push_back(static_cast<std::uint32_t>(peer));
             offset = std::min(offset, from);
         }
-        askers.offsets.clear();
+        requests.offsets.clear();
         send_blob(blob, offset, chain);
     }
 }
@@ -188,7 +188,7 @@ void Farm::step() {
         busy = true;
         take(*message);
     }
-    serve_askers();
+    serve_requests();
     watch_for_silence();
     watch_for_slowness();
     beat();
@@ -231,12 +231,12 @@ std::string Farm::blame(const WorkUnit& unit) const {
 /// Cause of the loss of the last workers, as far as known.
 std::string Farm::why_nobody() const {
     if (!last_failure_.empty()) return ": " + last_failure_;
-    const auto [unit, deaths] = deadliest();
+    const auto [unit, deaths] = worst_poison_unit();
     return deaths < 2 ? "" : ": " + std::to_string(deaths) + " were lost over " + blame(unit);
 }
 
-std::pair<WorkUnit, std::size_t> Farm::deadliest() const {
-    return ledger_ ? ledger_->deadliest() : std::pair<WorkUnit, std::size_t>();
+std::pair<WorkUnit, std::size_t> Farm::worst_poison_unit() const {
+    return ledger_ ? ledger_->worst_poison_unit() : std::pair<WorkUnit, std::size_t>();
 }
 
 /// Once no unit waits, looks at intervals for slow workers whose units idle workers could copy.
@@ -276,14 +276,14 @@ void Farm::beat() {
 }
 
 void Farm::beat_during(const std::function<void()>& work) {
-    run_aside(work, [this] { beat(); });
+    run_in_background(work, [this] { beat(); });
 }
 
 Speeds Farm::speeds() const {
-    std::map<int, Hand> hands;
+    std::map<int, WorkerRate> rates;
     for (const auto& [peer, member] : roster_.members())
-        if (member.state == MemberState::present) hands[peer] = {member.hello.threads, member.speed.paths_per_second()};
-    return Speeds(hands);
+        if (member.state == MemberState::present) rates[peer] = {member.hello.threads, member.speed.paths_per_second()};
+    return Speeds(rates);
 }
 
 /// Gives a worker its portion of the waiting units. A worker that got less than it requested requests again when it has
@@ -341,7 +341,7 @@ void Farm::give_up(Member& member, MemberState state, const std::string& why) {
               "worker {} on {} {}; {} units are issued again", member.peer, member.hello.host, why, units);
     if (std::erase(not_ready_, member.peer) > 0 && not_ready_.empty())
         broadcast_seconds_ = clock_.seconds() - pass_began_;
-    if (const auto [unit, deaths] = deadliest(); deaths >= Ledger::kMostDeaths)
+    if (const auto [unit, deaths] = worst_poison_unit(); deaths >= Ledger::kMostDeaths)
         throw RunError(std::to_string(deaths) + " workers were lost over " + blame(unit));
     if (units > 0) serve_all();
 }

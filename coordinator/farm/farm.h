@@ -59,9 +59,9 @@ class Farm {
     /// Announces a pass and sends its tree along the chain of present workers; before the first pass, the scene.
     /// `begun`: partial results from before a resume, or nullptr.
     void begin_pass(const PassPlan& plan, const AnyModel& tree, Bytes encoded_tree, int width, int height,
-                    const BegunPass* begun = nullptr);
+                    const PartialPass* partial = nullptr);
     /// Copies the pass's results so far, with its poison units.
-    void fill(BegunPass& begun) const;
+    void fill(PartialPass& partial) const;
 
     /// Handles messages, issues units and watches for silence; rests if nothing happened. Throws RunError if no worker
     /// is left, and none has come back within FarmLimits::grace.
@@ -104,7 +104,7 @@ class Farm {
         std::uint64_t tree_hash = 0;
     };
 
-    void open_books(const AnyModel& tree, int width, int height, const BegunPass* begun);
+    void open_books(const AnyModel& tree, int width, int height, const PartialPass* partial);
     bool calm() const;  ///< all workers have enough to trace
     void take(const Received& received);
     void on_bad_message(int peer, const std::string& why);
@@ -112,7 +112,7 @@ class Farm {
     void watch_for_slowness();
     std::string blame(const WorkUnit& unit) const;
     std::string why_nobody() const;
-    std::pair<WorkUnit, std::size_t> deadliest() const;
+    std::pair<WorkUnit, std::size_t> worst_poison_unit() const;
     bool may_come_back() const;  ///< a worker that is not present
     void on(int peer, const Hello& m);
     void on(int peer, const Resend& m);
@@ -132,7 +132,7 @@ class Farm {
     BlobName name_of(Blob blob) const;
     void send_blob(Blob blob, std::uint64_t offset, std::span<const std::uint32_t> peers);
     bool may_have_copy(Blob blob, int peer);
-    void serve_askers();
+    void serve_requests();
     std::vector<std::uint32_t> chain_of_present();
     std::vector<std::uint32_t> chain_without_scene();
 
@@ -166,11 +166,11 @@ class Farm {
     std::set<int> told_job_;                             ///< peers that were told to join this job
     std::map<std::pair<int, BlobName>, double> copied_;  ///< time at which a worker got a copy of its own
     /// Requests for a blob: the first missing byte of each peer, and the time of the first request.
-    struct Askers {
+    struct BlobRequests {
         std::map<int, std::uint64_t> offsets;
         double since = 0;
     };
-    std::map<Blob, Askers> askers_;
+    std::map<Blob, BlobRequests> requests_;
     std::string last_failure_;
     /// time at which the pass had no more units to issue; time of the last search for slow workers
     double ended_ = 0, last_look_ = 0;

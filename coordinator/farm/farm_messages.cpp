@@ -130,9 +130,9 @@ void Farm::on(int peer, const Resend& m) {
     if (m.job != turn_.number) return;
     if (m.blob == Blob::tree && (!pass_ || m.epoch != pass_->plan.index)) return;
     log_->debug("worker {} asks again for a {} from byte {}", peer, m.blob == Blob::tree ? "tree" : "scene", m.offset);
-    Askers& askers = askers_[m.blob];
-    if (askers.offsets.empty()) askers.since = clock_.seconds();
-    askers.offsets.try_emplace(peer, m.offset);
+    BlobRequests& requests = requests_[m.blob];
+    if (requests.offsets.empty()) requests.since = clock_.seconds();
+    requests.offsets.try_emplace(peer, m.offset);
 }
 
 void Farm::on(int peer, const Want& m) {
@@ -162,8 +162,8 @@ void Farm::on(int peer, Result&& m) {
         ++dropped_results_;
         return;
     }
-    const Verdict verdict = collector_ ? collector_->take(peer, std::move(m), *ledger_) : Verdict::lie;
-    if (verdict == Verdict::lie) throw FormatError("a result for work that the worker does not have");
+    const Verdict verdict = collector_ ? collector_->take(peer, std::move(m), *ledger_) : Verdict::protocol_error;
+    if (verdict == Verdict::protocol_error) throw FormatError("a result for work that the worker does not have");
     if (verdict == Verdict::late) {
         ++dropped_results_;
         log_->debug("a result of worker {} was dropped: others were quicker", peer);

@@ -17,16 +17,16 @@ constexpr int kOfEarlierLives = -2;
 }  // namespace
 
 Ledger::Ledger(const PassPlan& plan, int width, int height, int tile_size, const DoneWork& done,
-               std::span<const DeadlyUnit> deadly)
+               std::span<const PoisonUnit> poison_units)
     : unit_spp_(plan.unit_spp()), done_(done.weight()) {
     const std::vector<WorkUnit> units = cut_pass(plan, width, height, tile_size);
     for (const WorkUnit& unit : units)
         total_ += weight(unit);
-    if (done.empty() && deadly.empty()) {
+    if (done.empty() && poison_units.empty()) {
         waiting_.assign(units.begin(), units.end());
     } else {
         DoneWork taken = done.pixel_count() > 0 ? done : DoneWork(width, height, plan.chunks);
-        for (const DeadlyUnit& each : deadly) {
+        for (const PoisonUnit& each : poison_units) {
             taken.add(each.unit);
             suspects_.push_back(each.unit);
             for (std::uint32_t k = 0; k < each.deaths; ++k)
@@ -147,12 +147,12 @@ std::vector<WorkUnit> Ledger::issue_copies(int worker, std::size_t count,
 Verdict Ledger::judge(int worker, std::span<const WorkUnit> units) const {
     std::vector<WorkUnit> sorted(units.begin(), units.end());
     std::sort(sorted.begin(), sorted.end());
-    if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return Verdict::lie;
+    if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return Verdict::protocol_error;
     bool late = false;
     for (const WorkUnit& unit : units) {
         const auto held = holders_.find(unit);
         if (held != holders_.end() && held->second.has(worker)) continue;
-        if (!superseded_.contains({worker, unit})) return Verdict::lie;
+        if (!superseded_.contains({worker, unit})) return Verdict::protocol_error;
         late = true;
     }
     return late ? Verdict::late : Verdict::accepted;
@@ -233,15 +233,15 @@ void Ledger::forgive(int worker) {
     std::erase_if(deaths_, [](const auto& death) { return death.second.empty(); });
 }
 
-std::pair<WorkUnit, std::size_t> Ledger::deadliest() const {
+std::pair<WorkUnit, std::size_t> Ledger::worst_poison_unit() const {
     std::pair<WorkUnit, std::size_t> most{{}, 0};
     for (const auto& [unit, workers] : deaths_)
         if (workers.size() > most.second) most = {unit, workers.size()};
     return most;
 }
 
-std::vector<DeadlyUnit> Ledger::deadly() const {
-    std::vector<DeadlyUnit> units;
+std::vector<PoisonUnit> Ledger::poison_units() const {
+    std::vector<PoisonUnit> units;
     for (const auto& [unit, workers] : deaths_)
         units.push_back({unit, static_cast<std::uint32_t>(std::min(workers.size(), kMostDeaths - 1))});
     return units;

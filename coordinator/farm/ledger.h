@@ -18,17 +18,17 @@ namespace treefarm {
 
 /// Verdict on a worker's result.
 enum class Verdict : std::uint8_t {
-    accepted,  ///< the worker has all of these units, and each is unfinished
-    late,      ///< it had them, but another worker's copy of some was faster
-    lie,       ///< a protocol error: some it never had, or one is named twice
+    accepted,        ///< the worker has all of these units, and each is unfinished
+    late,            ///< it had them, but another worker's copy of some was faster
+    protocol_error,  ///< a protocol error: some it never had, or one is named twice
 };
 
 /// A poison unit: workers were lost while they had it.
-struct DeadlyUnit {
+struct PoisonUnit {
     WorkUnit unit;
     std::uint32_t deaths = 0;
 
-    bool operator==(const DeadlyUnit&) const = default;
+    bool operator==(const PoisonUnit&) const = default;
 };
 
 /// Limits of the units that a worker gets at once.
@@ -48,7 +48,7 @@ class Ledger {
     /// All units of a pass, in tiles of `tile_size` pixels, except those in `done`. `deadly`: poison units from before
     /// a resume, which are not in `done` and are issued uncut.
     Ledger(const PassPlan& plan, int width, int height, int tile_size, const DoneWork& done = {},
-           std::span<const DeadlyUnit> deadly = {});
+           std::span<const PoisonUnit> poison_units = {});
 
     /// Issues a portion to a worker. A unit with more paths than portion.piece is cut in halves, but into no piece that
     /// takes less time than its request. A unit over which a worker was lost is issued alone: to a worker without
@@ -81,9 +81,9 @@ class Ledger {
     /// Clears the worker's losses, since it is back: no unit caused one.
     void forgive(int worker);
     /// The unit over which most workers were lost, and their number; 0: none.
-    std::pair<WorkUnit, std::size_t> deadliest() const;
+    std::pair<WorkUnit, std::size_t> worst_poison_unit() const;
     /// All poison units, for a checkpoint. One that is about to end the render does so after a resume at the next loss.
-    std::vector<DeadlyUnit> deadly() const;
+    std::vector<PoisonUnit> poison_units() const;
 
     bool complete() const { return done_ == total_; }
     std::size_t waiting() const { return waiting_.size(); }

@@ -8,7 +8,7 @@
 
 namespace treefarm {
 
-void run_aside(const std::function<void()>& work, const std::function<void()>& meanwhile) {
+void run_in_background(const std::function<void()>& work, const std::function<void()>& meanwhile) {
     constexpr std::chrono::milliseconds kPause{10};
     std::future<void> done = std::async(std::launch::async, work);
     while (done.wait_for(kPause) != std::future_status::ready)

@@ -10,7 +10,7 @@ namespace treefarm {
 
 /// Runs `work` in a thread of its own, while this thread calls `meanwhile` every few milliseconds, for communication.
 /// Rethrows exceptions of either when the work has ended.
-void run_aside(const std::function<void()>& work, const std::function<void()>& meanwhile);
+void run_in_background(const std::function<void()>& work, const std::function<void()>& meanwhile);
 
 /// Coordinator's heartbeat to workers while there is no farm: before the job is known, and between two jobs.
 class Pulse {

@@ -4,13 +4,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/policy.h"
-
 namespace treefarm {
 
 namespace {
 
-constexpr double kLeastSpeed = 1.0;  ///< of a worker without progress: it may resume
+constexpr double kLeastSpeed = 1.0;  ///< of one that stands still: it may move again
+constexpr double kHalfLife = 2.0;    ///< of a measured speed, seconds
+// What a worker is handed at once: little enough that the last units of a pass spread over all workers.
+constexpr double kMostSeconds = 2.0;  ///< of its work
+constexpr double kPart = 0.25;        ///< of its part of what is left
+// A unit is given to a second worker that saves so many seconds, and so many times what it takes there.
+constexpr double kCopyGain = 0.1, kCopyRatio = 1.0;
 
 }  // namespace
 
@@ -18,39 +22,39 @@ void WorkerSpeed::beat(double now, std::uint64_t samples, bool busy) {
     if (busy && last_ && now > last_->at && samples >= last_->samples) {
         const double seconds = now - last_->at;
         const double rate = static_cast<double>(samples - last_->samples) / seconds;
-        const double kept = speed_ ? std::exp2(-seconds / kPolicy.farm.half_life) : 0.0;
+        const double kept = speed_ ? std::exp2(-seconds / kHalfLife) : 0.0;
         speed_ = kept * speed_.value_or(0.0) + (1.0 - kept) * rate;
     }
     last_.reset();
     if (busy) last_ = Beat{now, samples};
 }
 
-Speeds::Speeds(const std::map<int, Hand>& hands) : hands_(hands) {
+Speeds::Speeds(const std::map<int, WorkerRate>& rates) : rates_(rates) {
     double paths = 0, threads = 0;
-    for (const auto& [worker, hand] : hands_) {
-        if (!hand.speed) continue;
-        paths += *hand.speed;
-        threads += hand.threads;
+    for (const auto& [worker, rate] : rates_) {
+        if (!rate.speed) continue;
+        paths += *rate.speed;
+        threads += rate.threads;
     }
     if (threads > 0) per_thread_ = paths / threads;
-    for (const auto& [worker, hand] : hands_)
+    for (const auto& [worker, rate] : rates_)
         total_ += speed(worker);
 }
 
 /// Paths per second; number of threads if no speed is known.
 double Speeds::speed(int worker) const {
-    const auto found = hands_.find(worker);
-    if (found == hands_.end()) return kLeastSpeed;
-    const Hand& hand = found->second;
-    return std::max(hand.speed ? *hand.speed : hand.threads * (per_thread_ > 0 ? per_thread_ : 1.0), kLeastSpeed);
+    const auto found = rates_.find(worker);
+    if (found == rates_.end()) return kLeastSpeed;
+    const WorkerRate& rate = found->second;
+    return std::max(rate.speed ? *rate.speed : rate.threads * (per_thread_ > 0 ? per_thread_ : 1.0), kLeastSpeed);
 }
 
 Portion Speeds::portion(int worker, std::size_t credit, std::uint64_t queued, std::uint64_t waiting) const {
-    const auto found = hands_.find(worker);
-    if (found == hands_.end()) return {};
+    const auto found = rates_.find(worker);
+    if (found == rates_.end()) return {};
     const double mine = speed(worker);
-    double paths = kPolicy.farm.part * static_cast<double>(waiting) * mine / std::max(total_, mine);
-    if (per_thread_ > 0) paths = std::min(paths, kPolicy.farm.most_seconds * mine);
+    double paths = kPart * static_cast<double>(waiting) * mine / std::max(total_, mine);
+    if (per_thread_ > 0) paths = std::min(paths, kMostSeconds * mine);
     const double left = paths - static_cast<double>(queued);
     if (left < 1 && queued > 0) return {};
     const double piece = std::max(paths / found->second.threads, 1.0);
@@ -59,15 +63,15 @@ Portion Speeds::portion(int worker, std::size_t credit, std::uint64_t queued, st
 
 double Speeds::gain(int here, std::uint64_t paths, int holder, std::uint64_t outstanding) const {
     const auto known = [&](int worker) {
-        const auto found = hands_.find(worker);
-        return found != hands_.end() && found->second.speed.has_value();
+        const auto found = rates_.find(worker);
+        return found != rates_.end() && found->second.speed.has_value();
     };
     if (per_thread_ == 0 && !known(holder)) return 0;
     // A worker that finished all before its speed was known is fast.
     const double takes = per_thread_ > 0 || known(here) ? static_cast<double>(paths) / speed(here) : 0.0;
     const double saved = static_cast<double>(outstanding) / speed(holder) - takes;
-    // If both end at the same time, the slower one's whole result is dropped.
-    return saved > std::max(kPolicy.farm.copy_gain, kPolicy.farm.copy_ratio * takes) ? saved : 0;
+    // Both may end together, and then the slower one's whole result is dropped.
+    return saved > std::max(kCopyGain, kCopyRatio * takes) ? saved : 0;
 }
 
 }  // namespace treefarm

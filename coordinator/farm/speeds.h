@@ -30,7 +30,7 @@ class WorkerSpeed {
 };
 
 /// Threads and speed of a present worker.
-struct Hand {
+struct WorkerRate {
     unsigned threads = 1;
     std::optional<double> speed;  ///< paths per second
 };
@@ -38,7 +38,7 @@ struct Hand {
 /// Speeds of all workers, by peer; one of unknown speed counts with the mean speed per thread of the others.
 class Speeds {
   public:
-    explicit Speeds(const std::map<int, Hand>& hands);
+    explicit Speeds(const std::map<int, WorkerRate>& rates);
 
     /// Limits of the units for a worker that requests `credit` units and has `queued` paths to begin, with `waiting`
     /// paths in all: two seconds of work at most, and a quarter of its part of the rest, so that pieces shrink for slow
@@ -52,7 +52,7 @@ class Speeds {
   private:
     double speed(int worker) const;
 
-    std::map<int, Hand> hands_;
+    std::map<int, WorkerRate> rates_;
     double per_thread_ = 0;  ///< mean speed of a thread, paths per second; 0: unknown
     double total_ = 0;
 };

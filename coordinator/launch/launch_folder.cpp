@@ -4,9 +4,9 @@
 #include <cerrno>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
 #include "common/base/error.h"
+#include "common/runs/run_json.h"
 #include "coordinator/checkpoint/checkpoint_store.h"
 #include "coordinator/run/run_folder.h"
 
@@ -15,18 +15,6 @@ namespace treefarm {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
-
-Json read_object(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    Json json = Json::parse(file, nullptr, false);
-    return json.is_object() ? json : Json::object();
-}
-
-std::string text_in(const Json& json, const char* key) {
-    const auto found = json.find(key);
-    return found != json.end() && found->is_string() ? found->get<std::string>() : "";
-}
 
 }  // namespace
 
@@ -63,19 +51,17 @@ std::optional<LifeStatus> LaunchFolder::life(bool& readable) const {
 }
 
 std::optional<int> LaunchFolder::summary(const std::string& attempt) const {
-    const Json summary = read_object(run_ / "summary.json");
+    const RunJson summary = read_run_json(run_ / kSummaryFile);
     if (text_in(summary, "attempt") != attempt) return std::nullopt;
     const std::string state = text_in(summary, "state");
     if (state == "interrupted") return 3;
     if (state == "failed") return 1;
     if (state != "done") return std::nullopt;
-    const auto target = summary.find("target");
-    const bool missed = target != summary.end() && target->is_object() && !target->value("reached", true);
-    return missed ? 4 : 0;
+    return missed_target(summary) ? 4 : 0;
 }
 
 bool LaunchFolder::was_taken_by(const std::string& launch) const {
-    return text_in(read_object(run_ / "status.json"), "attempt").starts_with(launch + ".");
+    return text_in(read_run_json(run_ / kStatusFile), "attempt").starts_with(launch + ".");
 }
 
 std::uint64_t LaunchFolder::checkpoint() const {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "common/runs/run_files.h"
 #include "coordinator/launch/launched_command.h"
 #include "coordinator/run/folder_lock.h"
 #include "coordinator/run/life_status.h"
@@ -20,8 +21,8 @@ class LaunchFolder {
 
     const std::filesystem::path& run() const { return run_; }
     std::filesystem::path own() const { return run_ / kLaunchFolder; }
-    /// Heartbeat file of the coordinator: an absolute path, for other hosts.
-    std::filesystem::path life_file() const { return std::filesystem::absolute(own() / "status.json"); }
+    /// Where the coordinator's sign of life goes: a whole path, for other hosts.
+    std::filesystem::path life_file() const { return std::filesystem::absolute(own() / kStatusFile); }
 
     /// Content of the heartbeat file; sets `readable` to whether it could be looked for.
     std::optional<LifeStatus> life(bool& readable) const;

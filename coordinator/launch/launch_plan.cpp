@@ -3,7 +3,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <numeric>
@@ -71,30 +70,30 @@ Starter LaunchPlanner::choose_starter() const {
     return options_.processes > 1 ? Starter::mpirun : Starter::alone;
 }
 
-StartPlan LaunchPlanner::plan(const Places& places) const {
+StartPlan LaunchPlanner::plan(const LaunchPaths& paths) const {
     StartPlan plan;
     plan.starter = starter_;
     plan.mpirun = options_.mpirun;
     plan.program = this_program();
     plan.recovery = !options_.no_recovery;
     plan.network = options_.network;
-    plan.temporary = places.temporary;
-    plan.shared_memory = places.shared_memory;
+    plan.temporary = paths.temporary;
+    plan.shared_memory = paths.shared_memory;
     plan.processes = options_.processes > 0 ? options_.processes : is_set("SLURM_JOB_ID") ? slurm_tasks() : 1;
     plan.one_host = !(is_set("SLURM_JOB_ID") && number_in("SLURM_JOB_NUM_NODES") > 1);
-    if (hosts_) use_hosts(places, plan);
+    if (hosts_) use_hosts(paths, plan);
     return plan;
 }
 
 /// Uses the hosts that answer, without the skipped ones; with them if no other is left.
-void LaunchPlanner::use_hosts(const Places& places, StartPlan& plan) const {
+void LaunchPlanner::use_hosts(const LaunchPaths& paths, StartPlan& plan) const {
     const std::vector<HostLine> hosts = hosts_->choose(unreachable_hosts(hosts_->all()));
     if (hosts.empty()) throw RunError(options_.hostfile + ": no host answers, or all of them lost their workers twice");
     plan.hosts = hosts;
     const std::string text = hostfile_text(hosts);
-    write_file_atomically(places.hostfile, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()},
+    write_file_atomically(paths.hostfile, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()},
                           Outlives::process);
-    plan.hostfile = places.hostfile;
+    plan.hostfile = paths.hostfile;
     if (options_.processes == 0) plan.processes = static_cast<int>(hosts.size()) + 1;
     const int slots =
         std::accumulate(hosts.begin(), hosts.end(), 0, [](int sum, const HostLine& line) { return sum + line.slots; });

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "coordinator/launch/host_pool.h"
@@ -19,12 +18,12 @@ class LaunchPlanner {
     explicit LaunchPlanner(const LaunchOptions& options);
 
     /// Files and folders of an attempt.
-    struct Places {
+    struct LaunchPaths {
         std::filesystem::path hostfile, temporary, shared_memory;
     };
     /// Plan of the next attempt; probes the hosts and writes a hostfile of those that answer. Throws RunError if none
     /// does.
-    StartPlan plan(const Places& places) const;
+    StartPlan plan(const LaunchPaths& paths) const;
 
     /// Records the end of an attempt with its workers.
     void note_end(const std::vector<LifeWorker>& workers);
@@ -34,7 +33,7 @@ class LaunchPlanner {
 
   private:
     Starter choose_starter() const;
-    void use_hosts(const Places& places, StartPlan& plan) const;
+    void use_hosts(const LaunchPaths& paths, StartPlan& plan) const;
 
     const LaunchOptions& options_;
     std::optional<HostPool> hosts_;

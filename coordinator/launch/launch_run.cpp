@@ -7,13 +7,10 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <memory>
 #include <random>
-#include <sstream>
 
 #include "common/base/error.h"
 #include "common/base/host.h"
@@ -24,7 +21,6 @@
 #include "coordinator/launch/attempt_processes.h"
 #include "coordinator/launch/child_process.h"
 #include "coordinator/launch/host_keys.h"
-#include "coordinator/launch/host_probe.h"
 #include "coordinator/launch/launch_folder.h"
 #include "coordinator/launch/launch_plan.h"
 #include "coordinator/launch/launch_signals.h"
@@ -89,7 +85,7 @@ class LaunchRun {
           temporary_(temporary_folder()),
           shared_memory_(shared_memory_folder()),
           log_(folder_.own() / "log", std::ios::app),
-          supervisor_(limits(options), hands(), [this](int number) { return name_of(number); }) {}
+          supervisor_(limits(options), actions(), [this](int number) { return name_of(number); }) {}
 
     int run() {
         try {
@@ -112,7 +108,7 @@ class LaunchRun {
         return limits;
     }
 
-    SupervisorHands hands() {
+    SupervisorActions actions() {
         return {[this](int number) { start(number); },
                 [this] { child_->signal(SIGUSR1); },
                 [this](const LifeStatus& status) { dump(status); },

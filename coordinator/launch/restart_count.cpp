@@ -6,12 +6,12 @@
 
 namespace treefarm {
 
-bool RestartCount::died(const AttemptReach& reach, const std::string& place) {
+bool RestartCount::died(const AttemptReach& reach, const std::string& stage) {
     // Finished renders of a series are not repeated, so that any number of them is progress.
-    if (reach.checkpoint > best_.checkpoint || reach.passes > best_.passes || reach.renders > 0) places_.clear();
+    if (reach.checkpoint > best_.checkpoint || reach.passes > best_.passes || reach.renders > 0) stages_.clear();
     best_.checkpoint = std::max(best_.checkpoint, reach.checkpoint);
     best_.passes = std::max(best_.passes, reach.passes);
-    places_.push_back(place);
+    stages_.push_back(stage);
     ++all_;
     return in_a_row() <= most_fruitless_ && all_ <= most_;
 }
@@ -21,9 +21,9 @@ double RestartCount::pause() const {
     return std::min(kLongest, std::exp2(std::max(0, in_a_row() - 1)));
 }
 
-std::string RestartCount::common_place() const {
-    const auto is_first = [this](const std::string& place) { return place == places_.front(); };
-    return !places_.empty() && std::all_of(places_.begin(), places_.end(), is_first) ? places_.front() : "";
+std::string RestartCount::common_stage() const {
+    const auto is_first = [this](const std::string& stage) { return stage == stages_.front(); };
+    return !stages_.empty() && std::all_of(stages_.begin(), stages_.end(), is_first) ? stages_.front() : "";
 }
 
 }  // namespace treefarm

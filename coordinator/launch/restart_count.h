@@ -21,20 +21,20 @@ class RestartCount {
     RestartCount(int fruitless, int all) : most_fruitless_(fruitless), most_(all) {}
 
     /// Records the death of an attempt at `place`, as "pass 3". Returns whether another one is allowed.
-    bool died(const AttemptReach& reach, const std::string& place);
+    bool died(const AttemptReach& reach, const std::string& stage);
 
     /// Seconds until the next attempt: 1, 2, 4, ... 30.
     double pause() const;
     /// Number of attempts in a row without progress since the first of them, the last one included.
-    int in_a_row() const { return static_cast<int>(places_.size()); }
+    int in_a_row() const { return static_cast<int>(stages_.size()); }
     /// Point at which all of them died; "" if there are several.
-    std::string common_place() const;
+    std::string common_stage() const;
 
   private:
     const int most_fruitless_, most_;
     int all_ = 0;
     AttemptReach best_;
-    std::vector<std::string> places_;  ///< points of death since the last progress
+    std::vector<std::string> stages_;  ///< points of death since the last progress
 };
 
 }  // namespace treefarm

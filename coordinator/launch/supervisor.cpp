@@ -19,7 +19,7 @@ constexpr int kFailed = 1, kInterrupted = 3;
 
 }  // namespace
 
-std::string life_place(const std::optional<LifeStatus>& status) {
+std::string life_stage(const std::optional<LifeStatus>& status) {
     if (!status) return "the start, before any sign of life";
     switch (status->phase) {
         case LifePhase::start:
@@ -39,8 +39,11 @@ std::string life_place(const std::optional<LifeStatus>& status) {
     return "";
 }
 
-Supervisor::Supervisor(SupervisorLimits limits, SupervisorHands hands, std::function<std::string(int)> name)
-    : limits_(limits), hands_(std::move(hands)), name_(std::move(name)), restarts_(limits.restarts, limits.attempts) {}
+Supervisor::Supervisor(SupervisorLimits limits, SupervisorActions actions, std::function<std::string(int)> name)
+    : limits_(limits),
+      actions_(std::move(actions)),
+      name_(std::move(name)),
+      restarts_(limits.restarts, limits.attempts) {}
 
 void Supervisor::ask_to_stop() {
     ++stops_;
@@ -62,7 +65,7 @@ std::optional<SupervisorEnd> Supervisor::step(const Sight& sight) {
         watch_stop(sight);
     else if (state_ == State::terminating && sight.now - acted_at_ >= limits_.terminate) {
         state_ = State::killed;
-        hands_.kill();
+        actions_.kill();
     }
     return std::nullopt;
 }
@@ -84,14 +87,14 @@ void Supervisor::start(double now) {
     told_unreadable_ = false;
     began_ = beat_at_ = progress_at_ = phase_at_ = now;
     state_ = State::running;
-    hands_.start(attempt_);
+    actions_.start(attempt_);
 }
 
 /// Reads the heartbeat.
 void Supervisor::look(const Sight& sight) {
     const double now = sight.now;
     if (!sight.readable) {  // no kill without evidence
-        if (!std::exchange(told_unreadable_, true)) hands_.say("the sign of life cannot be read: its age is ignored");
+        if (!std::exchange(told_unreadable_, true)) actions_.say("the sign of life cannot be read: its age is ignored");
         began_ = beat_at_ = progress_at_ = now;
     }
     if (code(sight) && !code_at_) code_at_ = now;
@@ -133,7 +136,7 @@ void Supervisor::watch(const Sight& sight) {
     } else if (now - beat_at_ > limits_.beat) {
         end_attempt(now, fmt::format("no sign of life for {:.0f} s", now - beat_at_));
     } else if (now - progress_at_ > stall_limit()) {
-        hands_.dump(*own_);
+        actions_.dump(*own_);
         end_attempt(now, fmt::format("no progress for {:.0f} s", now - progress_at_));
     }
 }
@@ -147,12 +150,12 @@ void Supervisor::watch_stop(const Sight& sight) {
 }
 
 void Supervisor::end_attempt(double now, const std::string& why) {
-    hands_.say(why);
+    actions_.say(why);
     why_ = why;
-    place_ = life_place(own_);
+    stage_ = life_stage(own_);
     state_ = State::terminating;
     acted_at_ = now;
-    hands_.terminate();
+    actions_.terminate();
 }
 
 void Supervisor::push_stop(double now) {
@@ -161,10 +164,10 @@ void Supervisor::push_stop(double now) {
     if (state_ == State::terminating || state_ == State::killed) return;
     // Before its first heartbeat a process does not handle SIGUSR1, and has nothing to write.
     if (!first || !own_) return end_attempt(now, first ? "stopping" : "stopping at once: unwritten results are lost");
-    hands_.say("stopping: writing the finished passes; a second signal stops at once");
+    actions_.say("stopping: writing the finished passes; a second signal stops at once");
     state_ = State::stopping;
     acted_at_ = now;
-    hands_.ask_to_stop();
+    actions_.ask_to_stop();
 }
 
 std::optional<SupervisorEnd> Supervisor::gone(const Sight& sight) {
@@ -174,33 +177,33 @@ std::optional<SupervisorEnd> Supervisor::gone(const Sight& sight) {
     // An attempt ended for its silence, or by mpirun after losing a host, may report that as a user's interruption.
     if (known && *known != kFailed && !(*known == kInterrupted && (stood_still || by_launcher) && stops_ == 0))
         return SupervisorEnd{*known, "", *known == kInterrupted};
-    if (stops_ > 0) return SupervisorEnd{kInterrupted, "interrupted in " + life_place(own_), true};
+    if (stops_ > 0) return SupervisorEnd{kInterrupted, "interrupted in " + life_stage(own_), true};
     if (!sight.not_started.empty())
-        return restart_or_end(sight, "it could not be started (" + sight.not_started + ")", life_place(own_));
-    if (known == kFailed) return restart_or_end(sight, "the render failed", life_place(own_));
-    if (!why_.empty()) return restart_or_end(sight, why_, place_);
-    if (by_launcher) return restart_or_end(sight, "the launcher ended the render", life_place(own_));
-    return restart_or_end(sight, "the render's processes are gone", life_place(own_));
+        return restart_or_end(sight, "it could not be started (" + sight.not_started + ")", life_stage(own_));
+    if (known == kFailed) return restart_or_end(sight, "the render failed", life_stage(own_));
+    if (!why_.empty()) return restart_or_end(sight, why_, stage_);
+    if (by_launcher) return restart_or_end(sight, "the launcher ended the render", life_stage(own_));
+    return restart_or_end(sight, "the render's processes are gone", life_stage(own_));
 }
 
 std::optional<SupervisorEnd> Supervisor::restart_or_end(const Sight& sight, const std::string& why,
-                                                        const std::string& place) {
+                                                        const std::string& stage) {
     AttemptReach reach{sight.checkpoint, 0, 0};
     if (own_) {
         reach.passes = own_->passes;
         reach.renders = own_->renders;
     }
     const std::string host = own_ ? " on " + own_->host : "";
-    if (restarts_.died(reach, place)) {
+    if (restarts_.died(reach, stage)) {
         due_ = sight.now + restarts_.pause();
-        hands_.say(fmt::format("{} in {}{}; again in {:.0f} s", why, place, host, restarts_.pause()));
+        actions_.say(fmt::format("{} in {}{}; again in {:.0f} s", why, stage, host, restarts_.pause()));
         state_ = State::waiting;
         return std::nullopt;
     }
-    const std::string again = restarts_.common_place();
+    const std::string again = restarts_.common_stage();
     const int times = restarts_.in_a_row();
     return SupervisorEnd{kFailed,
-                         fmt::format("{} in {}{}; {}", why, place, host,
+                         fmt::format("{} in {}{}; {}", why, stage, host,
                                      times > 1 ? fmt::format("given up after {} attempts in a row without progress{}",
                                                              times, again.empty() ? "" : ", all of which ended there")
                                                : "no restarts are left"),

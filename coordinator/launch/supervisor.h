@@ -39,7 +39,7 @@ struct Sight {
 };
 
 /// Actions of a supervisor, as functions. Each may throw InputError, which leaves Supervisor::step().
-struct SupervisorHands {
+struct SupervisorActions {
     std::function<void(int)> start;               ///< an attempt, by its number
     std::function<void()> ask_to_stop;            ///< SIGUSR1: write, and leave
     std::function<void(const LifeStatus&)> dump;  ///< SIGABRT to a coordinator without progress
@@ -60,7 +60,7 @@ struct SupervisorEnd {
 class Supervisor {
   public:
     /// `name`: name of an attempt by its number.
-    Supervisor(SupervisorLimits limits, SupervisorHands hands, std::function<std::string(int)> name);
+    Supervisor(SupervisorLimits limits, SupervisorActions actions, std::function<std::string(int)> name);
 
     /// Records a request to stop, by a user or a batch system: the first one stops in order, the second at once.
     void ask_to_stop();
@@ -83,11 +83,11 @@ class Supervisor {
     void push_stop(double now);
     std::optional<int> code(const Sight& sight) const;
     std::optional<SupervisorEnd> gone(const Sight& sight);
-    std::optional<SupervisorEnd> restart_or_end(const Sight& sight, const std::string& why, const std::string& place);
+    std::optional<SupervisorEnd> restart_or_end(const Sight& sight, const std::string& why, const std::string& stage);
     double stall_limit() const;
 
     const SupervisorLimits limits_;
-    const SupervisorHands hands_;
+    const SupervisorActions actions_;
     const std::function<std::string(int)> name_;
     RestartCount restarts_;
     State state_ = State::waiting;
@@ -99,10 +99,10 @@ class Supervisor {
     std::optional<LifeStatus> own_;                 ///< last heartbeat of this attempt
     std::array<double, kLifePhases> longest_ = {};  ///< per phase: longest time without progress so far
     bool told_unreadable_ = false;
-    std::string why_, place_;  ///< reason for ending the attempt, and where it was then
+    std::string why_, stage_;  ///< reason for ending the attempt, and where it was then
 };
 
 /// Phase of an attempt in words: "pass 3", "reading the input".
-std::string life_place(const std::optional<LifeStatus>& status);
+std::string life_stage(const std::optional<LifeStatus>& status);
 
 }  // namespace treefarm

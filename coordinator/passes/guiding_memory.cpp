@@ -8,48 +8,48 @@
 #include "common/plan/schedule/guiding_verdict.h"
 
 namespace treefarm {
-namespace {
-
-constexpr const Policy::Guiding& kOf = kPolicy.guiding;
-
-}  // namespace
+namespace {}  // namespace
 
 GuidingVerdict GuidingMemory::after_guided(const PassPlan& pass, const GuidingEvidence& evidence) {
-    const GuidingWorth own = evidence.worth();
-    const bool counts = own.worth > 0 && pass.spp >= kOf.least_judged_spp;
-    const GuidingWorth worth = counts ? worth_with(pass, evidence, own) : own;
-    const Guiding verdict = judge_guiding(pass, worth, before_, std::min(mistrust_, noisier()));
-    if (counts) before_ = worth;
+    const GuidingEfficiency own = evidence.efficiency();
+    const bool counts = own.efficiency > 0 && pass.spp >= tuned<std::uint32_t>("guiding.least_judged_spp");
+    const GuidingEfficiency efficiency = counts ? efficiency_with(pass, evidence, own) : own;
+    const Guiding verdict = judge_guiding(pass, efficiency, before_, std::min(mistrust_, noisier()));
+    if (counts) before_ = efficiency;
     mistrust_ = std::sqrt(mistrust_);
     if (verdict == Guiding::loses) first_to_take_up_ = pass.index + 2;  // the first unguided pass alone proves nothing
-    return {verdict, worth};
+    return {verdict, efficiency};
 }
 
-GuidingWorth GuidingMemory::worth_with(const PassPlan& pass, const GuidingEvidence& evidence, const GuidingWorth& own) {
-    // In short passes, noise is relative to the light level of an image of few samples.
-    if (pass.spp >= kOf.least_settled_spp && told_.samples < kOf.least_settled_spp) told_ = {};
+GuidingEfficiency GuidingMemory::efficiency_with(const PassPlan& pass, const GuidingEvidence& evidence,
+                                                 const GuidingEfficiency& own) {
+    // The light that the noise of short passes is relative to is that of an image of few samples.
+    if (pass.spp >= tuned<std::uint32_t>("guiding.least_settled_spp") &&
+        told_.samples < tuned<std::uint32_t>("guiding.least_settled_spp"))
+        told_ = {};
     told_.add(evidence);
     // Passes that each have too few samples may suffice together, and one may have missed light that others found.
-    const GuidingWorth all = told_.worth();
-    const bool knows_less =
-        own.known < kOf.least_known || all.unguided_variance > kOf.mistrusted * own.unguided_variance;
-    return knows_less && all.known >= kOf.least_known ? all : own;
+    const GuidingEfficiency all = told_.efficiency();
+    const bool knows_less = own.known < tuned("guiding.least_known") ||
+                            all.unguided_variance > tuned("guiding.mistrusted") * own.unguided_variance;
+    return knows_less && all.known >= tuned("guiding.least_known") ? all : own;
 }
 
 GuidingVerdict GuidingMemory::after_unguided(const PassPlan& pass, double variance, Guiding now) {
-    if (!(before_.worth > 0 && variance > 0)) return {now, before_};
+    if (!(before_.efficiency > 0 && variance > 0)) return {now, before_};
     unguided_samples_ += pass.spp;
     unguided_variance_ += (variance - unguided_variance_) * pass.spp / unguided_samples_;
     const double factor = noisier();
-    if (pass.index < first_to_take_up_ || factor == 1 || factor * before_.worth <= kOf.taking_up) return {now, before_};
+    if (pass.index < first_to_take_up_ || factor == 1 || factor * before_.efficiency <= tuned("guiding.taking_up"))
+        return {now, before_};
     mistrust_ = factor;
     return {Guiding::open, before_};
 }
 
 double GuidingMemory::noisier() const {
-    const double told = told_.worth().unguided_variance;
+    const double told = told_.efficiency().unguided_variance;
     const double ratio = told > 0 && unguided_samples_ > 0 ? unguided_variance_ / told : 1.0;
-    return ratio > kOf.mistrusted ? ratio : 1.0;
+    return ratio > tuned("guiding.mistrusted") ? ratio : 1.0;
 }
 
 }  // namespace treefarm

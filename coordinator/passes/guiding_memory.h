@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "common/film/guiding_worth.h"
+#include "common/film/guiding_efficiency.h"
 #include "common/plan/schedule/schedule.h"
 
 namespace treefarm {
@@ -11,7 +11,7 @@ namespace treefarm {
 /// Verdict on guiding after a pass, with the efficiency that it is based on; zeros if unknown.
 struct GuidingVerdict {
     Guiding guiding;
-    GuidingWorth worth;
+    GuidingEfficiency efficiency;
 };
 
 /// Evidence on guiding from a render's passes, which decides whether the next ones are guided. Guided passes estimate
@@ -20,8 +20,8 @@ class GuidingMemory {
   public:
     /// Verdict after a guided pass that recorded.
     GuidingVerdict after_guided(const PassPlan& pass, const GuidingEvidence& evidence);
-    /// Verdict after an unguided pass; `variance`: of a sample, as GuidingWorth::unguided_variance; 0: unknown. It is
-    /// `now` if the pass tells nothing new.
+    /// Verdict after an unguided pass; `variance`: of a sample, as GuidingEfficiency::unguided_variance; 0: unknown. It
+    /// is `now` if the pass tells nothing new.
     GuidingVerdict after_unguided(const PassPlan& pass, double variance, Guiding now);
 
     bool operator==(const GuidingMemory&) const = default;
@@ -33,11 +33,12 @@ class GuidingMemory {
 
   private:
     /// Guiding efficiency after a pass with the result `own`; adds its evidence to that of all passes.
-    GuidingWorth worth_with(const PassPlan& pass, const GuidingEvidence& evidence, const GuidingWorth& own);
+    GuidingEfficiency efficiency_with(const PassPlan& pass, const GuidingEvidence& evidence,
+                                      const GuidingEfficiency& own);
     /// Variance of unguided passes over the guided ones' estimate of it; 1 if unknown, or not significant.
     double noisier() const;
 
-    GuidingWorth before_;                 ///< efficiency at the last verdict
+    GuidingEfficiency before_;            ///< efficiency at the last verdict
     GuidingEvidence told_;                ///< evidence of the guided passes so far
     double unguided_samples_ = 0;         ///< samples of each pixel
     double unguided_variance_ = 0;        ///< variance of those samples, measured in unguided passes

@@ -21,7 +21,7 @@ class PassLoop {
           choose_(choose),
           hooks_(hooks),
           state_(std::move(state)),
-          seconds_before_(state_.begun ? state_.begun->run_seconds : state_.history.seconds) {
+          seconds_before_(state_.partial ? state_.partial->run_seconds : state_.history.seconds) {
         result_.width = width;
         result_.height = height;
     }
@@ -45,21 +45,21 @@ class PassLoop {
     void hand_over() {
         if (!whole_ || !hooks_.on_last_state) return;
         try {
-            if (collecting_) note_begun();
+            if (collecting_) note_partial_pass();
         } catch (const std::bad_alloc&) {  // the finished passes are kept
         }
-        if (!state_.reports.empty() || state_.begun) hooks_.on_last_state(std::move(state_));
+        if (!state_.reports.empty() || state_.partial) hooks_.on_last_state(std::move(state_));
     }
 
     /// Adds the partial results of the present pass to the state.
-    void note_begun() {
-        BegunPass begun;
-        farm_.fill(begun);
-        if (begun.done.empty() && begun.deadly.empty()) return;
-        begun.memory = collecting_->memory;
-        begun.collect_seconds = collecting_->before + collecting_->clock.seconds();
-        begun.run_seconds = run_seconds();
-        state_.begun = std::move(begun);
+    void note_partial_pass() {
+        PartialPass partial;
+        farm_.fill(partial);
+        if (partial.done.empty() && partial.poison_units.empty()) return;
+        partial.memory = collecting_->memory;
+        partial.collect_seconds = collecting_->before + collecting_->clock.seconds();
+        partial.run_seconds = run_seconds();
+        state_.partial = std::move(partial);
     }
 
     /// Shows the image of passes that were finished before a resume.
@@ -75,9 +75,9 @@ class PassLoop {
 
     void render_passes() {
         NextPass next = choose_next(true);
-        if (state_.begun) {  // a partial pass is finished in any case, with its own plan
-            next.pass = state_.begun->plan;
-            next.memory = state_.begun->memory;
+        if (state_.partial) {  // a partial pass is finished in any case, with its own plan
+            next.pass = state_.partial->plan;
+            next.memory = state_.partial->memory;
         }
         while (next.pass) {
             const Timer timer;
@@ -117,9 +117,9 @@ class PassLoop {
         coming_tree_hash_ = hash_bytes(encoded);
         report.tree = tree_figures(state_.tree, encoded.size());
         farm_.begin_pass(plan, state_.tree, std::move(encoded), result_.width, result_.height,
-                         state_.begun ? &*state_.begun : nullptr);
-        report.seconds.all = state_.begun ? state_.begun->collect_seconds : 0.0;
-        state_.begun.reset();  // from now on the farm collects it
+                         state_.partial ? &*state_.partial : nullptr);
+        report.seconds.all = state_.partial ? state_.partial->collect_seconds : 0.0;
+        state_.partial.reset();  // from now on the farm collects it
     }
 
     /// Collects the results of a pass; false if it was interrupted.
@@ -129,7 +129,7 @@ class PassLoop {
             if (hooks_.interrupted && hooks_.interrupted()) return false;
             farm_.step();
             tell_progress(plan, chosen);
-            if (hooks_.state_due && hooks_.state_due()) show_begun();
+            if (hooks_.state_due && hooks_.state_due()) show_partial_pass();
         }
         const double seconds = collecting_->before + collecting_->clock.seconds();
         collecting_.reset();
@@ -140,18 +140,18 @@ class PassLoop {
     }
 
     /// Offers the state with the partial pass, if it has grown: a supervisor counts a repeated state as progress.
-    void show_begun() {
+    void show_partial_pass() {
         const std::uint64_t value = kept_value();
         if (value == std::exchange(collecting_->kept, value)) return;
-        note_begun();
-        if (state_.begun && hooks_.on_state) hooks_.on_state(state_);
-        state_.begun.reset();
+        note_partial_pass();
+        if (state_.partial && hooks_.on_state) hooks_.on_state(state_);
+        state_.partial.reset();
     }
 
     /// Value that changes with the partial pass's results worth saving.
     std::uint64_t kept_value() const {
         std::uint64_t value = farm_.ledger().done();
-        for (const DeadlyUnit& unit : farm_.ledger().deadly())
+        for (const PoisonUnit& unit : farm_.ledger().poison_units())
             value += unit.deaths;
         return value;
     }

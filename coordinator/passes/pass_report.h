@@ -4,11 +4,10 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <vector>
 
 #include "common/film/combine.h"
 #include "common/film/error_estimate.h"
-#include "common/film/guiding_worth.h"
+#include "common/film/guiding_efficiency.h"
 #include "common/film/trace_stats.h"
 #include "common/guiding/any_guide.h"
 #include "common/plan/forecast/forecast.h"
@@ -60,13 +59,13 @@ struct PassReport {
     PassSeconds seconds;
     TraceStats stats;
     PassVariance variance;
-    ErrorEstimate error;                  ///< of the image including this pass
-    GuidingWorth guiding_worth;           ///< the basis of the verdict on guiding after this pass
-    Guiding guiding = Guiding::open;      ///< verdict after this pass
-    SplittingGain splitting_gain;         ///< of a guided pass that recorded and may split
-    bool splitting = true;                ///< whether splitting may pay, after this pass
-    LightSubpathGain light_subpath_gain;  ///< of a pass with the comparison
-    bool light_subpaths = true;           ///< whether light subpaths may pay, after this pass
+    ErrorEstimate error;                   ///< of the image including this pass
+    GuidingEfficiency guiding_efficiency;  ///< the basis of the verdict on guiding after this pass
+    Guiding guiding = Guiding::open;       ///< verdict after this pass
+    SplittingGain splitting_gain;          ///< of a guided pass that recorded and may split
+    bool splitting = true;                 ///< whether splitting may pay, after this pass
+    LightSubpathGain light_subpath_gain;   ///< of a pass with the comparison
+    bool light_subpaths = true;            ///< whether light subpaths may pay, after this pass
     /// number of emitters that light paths may start from, if their choice is learned
     std::uint64_t emitters = 0;
     std::uint64_t emitters_of_half = 0;  ///< the smallest number of them that started half of this pass's light paths
@@ -101,12 +100,5 @@ void fill_from_collector(PassReport& report, const Collector& collector);
 
 /// Computes seconds.idle from seconds.all and the other figures.
 void count_idle(PassReport& report);
-
-/// Header line and a pass's line of passes.csv, without line ends.
-std::string pass_csv_header();
-std::string pass_csv_line(const PassReport& report);
-
-/// Name of a forecast's trust: "firm", "noisy", "learning", or empty.
-const char* trust_name(Trust trust);
 
 }  // namespace treefarm

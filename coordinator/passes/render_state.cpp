@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/passes/render_state.h"
 
-#include <algorithm>
 #include <future>
 #include <utility>
 
@@ -52,7 +51,7 @@ void judge_guiding(RenderState& state, const Resolved& job, std::size_t width, d
                 ? memory.after_guided(pass, guiding_evidence(report.stats.unguided, pixels, levels, width, cost))
                 : memory.after_unguided(pass, mean_variance(pixels, levels, width), verdict);
         verdict = judged.guiding;
-        report.guiding_worth = judged.worth;
+        report.guiding_efficiency = judged.efficiency;
     }
     report.guiding = verdict;
 }
@@ -69,8 +68,8 @@ double sample_cost(const PassReport& report) {
     const TraceStats& stats = report.stats;
     const auto count = [](std::uint64_t n) { return static_cast<double>(n); };
     if (stats.paths == 0) return 0;
-    const double rays = (report.plan.guided ? kPolicy.guiding.ray_cost : 1.0) * count(stats.rays) +
-                        kPolicy.next_event.shadow_ray_cost * count(stats.shadow_rays);
+    const double rays = (report.plan.guided ? tuned("guiding.ray_cost") : 1.0) * count(stats.rays) +
+                        tuned("next_event.shadow_ray_cost") * count(stats.shadow_rays);
     return rays / count(stats.paths);
 }
 
@@ -83,12 +82,13 @@ void judge_next_event(RenderState& state, const Resolved& job, const CombinedIma
     const PassPlan& plan = report.plan;
     const auto asked = static_cast<double>(report.stats.next_event[kNextEventAsked]),
                drawn = static_cast<double>(report.stats.next_event[kNextEventDrawn]);
-    // Samples along which direct light was counted.
-    const std::uint64_t samples = multiples_in(plan.first_sample, plan.spp, kPolicy.next_event.counted_every);
+    // Along which direct light was counted.
+    const std::uint64_t samples =
+        multiples_in(plan.first_sample, plan.spp, tuned<std::uint32_t>("next_event.counted_every"));
     const double paths =
         asked > 0 ? static_cast<double>(report.stats.paths) * static_cast<double>(samples) / plan.spp : 0;
     report.price = {relative_variance(state.films.back().pixels, levels, width),
-                    paths > 0 ? cost + kPolicy.next_event.sample_cost * drawn / paths : 0, paths};
+                    paths > 0 ? cost + tuned("next_event.sample_cost") * drawn / paths : 0, paths};
     ImageFacts facts{static_cast<std::uint32_t>(levels.columns), std::move(levels.inverse_levels),
                      state.tree.regions().image.next_event};
     if (job.decides_next_event && !plan.guided)
@@ -142,7 +142,7 @@ std::vector<PassPlan> RenderState::plans() const {
     std::vector<PassPlan> plans;
     for (const PassReport& report : reports)
         plans.push_back(report.plan);
-    if (begun) plans.push_back(begun->plan);
+    if (partial) plans.push_back(partial->plan);
     return plans;
 }
 

@@ -11,7 +11,7 @@
 #include "common/guiding/any_guide.h"
 #include "common/guiding/regions/next_event.h"
 #include "common/plan/forecast/budget.h"
-#include "coordinator/farm/begun_pass.h"
+#include "coordinator/farm/partial_pass.h"
 #include "coordinator/passes/guiding_memory.h"
 #include "coordinator/passes/pass_report.h"
 
@@ -29,9 +29,9 @@ struct RenderState {
     std::optional<bool> last_tree;  ///< whether it was refined as the last one; no value: it is the first
     AnyLearner learner;
     ImageNextEventLearner image_next_event;
-    std::vector<PassReport> reports;  ///< of finished passes
-    std::uint64_t tree_hash = 0;      ///< of the encoded tree that guided the last finished pass
-    std::optional<BegunPass> begun;   ///< the partial pass after them, if the state is within one
+    std::vector<PassReport> reports;     ///< of finished passes
+    std::uint64_t tree_hash = 0;         ///< of the encoded tree that guided the last finished pass
+    std::optional<PartialPass> partial;  ///< the partial pass after them, if the state is within one
 
     std::uint32_t spp() const { return history.spp(); }
     /// Plans of the finished passes and of the partial one.

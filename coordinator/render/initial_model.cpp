@@ -9,6 +9,7 @@
 #include "common/config/job_reader.h"
 #include "common/plan/resolve/resolved_file.h"
 #include "common/plan/schedule/schedule_file.h"
+#include "common/runs/run_files.h"
 #include "coordinator/render/stored_model.h"
 
 namespace treefarm {
@@ -34,7 +35,7 @@ void check_guide(const fs::path& run, const Job& before, const Job& now) {
 /// Job of an earlier run by this build.
 Job job_of(const fs::path& run) {
     try {
-        return read_resolved(read_settings_text(run / "resolved.toml", "job"), (run / "resolved.toml").string());
+        return read_resolved(read_settings_text(run / kResolvedFile, "job"), (run / kResolvedFile).string());
     } catch (const InputError& error) {
         throw InputError(error.where(), std::string(kKey) + " is of another build: " + error.problem(),
                          std::string("render that run again, or leave ") + kKey + " away");
@@ -48,13 +49,13 @@ void read_initial_model(RenderRequest& request) {
     const Resolved resolved = resolve(request.content.job, request.content.scene);
     if (guiding.initial_model.empty() || !resolved.guides) return;
     guiding.initial_model = fs::absolute(guiding.initial_model).lexically_normal().string();
-    const fs::path run = guiding.initial_model, file = run / "tree.bin";
-    if (!fs::exists(run / "resolved.toml") || !fs::exists(run / "schedule.toml"))
+    const fs::path run = guiding.initial_model, file = run / kTreeFile;
+    if (!fs::exists(run / kResolvedFile) || !fs::exists(run / kScheduleFile))
         refuse(run, "is no run directory", std::string("name one with ") + kKey);
     const Job before = job_of(run);
     check_guide(run, before, resolved);
-    const std::vector<PassPlan> passes = parse_schedule(read_settings_text(run / "schedule.toml", "schedule"),
-                                                        (run / "schedule.toml").string(), resolved);
+    const std::vector<PassPlan> passes =
+        parse_schedule(read_settings_text(run / kScheduleFile, "schedule"), (run / kScheduleFile).string(), resolved);
     const auto teacher = std::find_if(passes.rbegin(), passes.rend(), [](const PassPlan& pass) { return pass.record; });
     // A run whose passes taught nothing passes on its own initial model.
     const bool has_learned = teacher != passes.rend() || !before.guiding.initial_model.empty();

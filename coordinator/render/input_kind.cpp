@@ -5,6 +5,7 @@
 
 #include "common/base/refuse.h"
 #include "common/base/text/parse_text.h"
+#include "common/runs/run_files.h"
 #include "coordinator/input/foreign_format.h"
 
 namespace treefarm {
@@ -21,16 +22,16 @@ constexpr const char* kStudy = "give a study file (.toml)";
         return std::filesystem::exists(folder / name, error);
     };
     const std::string input = folder.string();
-    if (has("study.json"))
+    if (has(kStudyFile))
         refuse(input, "is the folder of a study",
                "give the study file to go on with it, or write treefarm report " + input);
-    if (has("shot.json"))
+    if (has(kShotFile))
         refuse(input, "is the folder of a shot",
                "its frames are run directories in it: treefarm render " +
-                   shell_quoted((folder / "frame.0001" / "job.toml").string()));
-    if (has("job.toml"))
+                   shell_quoted((folder / "frame.0001" / kJobFile).string()));
+    if (has(kJobFile))
         refuse(input, "is a run directory",
-               "its job is a file in it: treefarm render " + shell_quoted((folder / "job.toml").string()));
+               "its job is a file in it: treefarm render " + shell_quoted((folder / kJobFile).string()));
     refuse(input, "is a folder", otherwise);
 }
 

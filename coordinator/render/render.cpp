@@ -7,7 +7,7 @@
 #include "common/plan/schedule/learning.h"
 #include "common/scene/pack/scene_codec.h"
 #include "coordinator/display/live_display.h"
-#include "coordinator/farm/guest_door.h"
+#include "coordinator/farm/join_listener.h"
 #include "coordinator/farm/memory_check.h"
 #include "coordinator/render/render_log.h"
 #include "coordinator/run/run_directory.h"
@@ -191,7 +191,7 @@ class RenderRun {
     const Log log_;
     LiveDisplay display_;
     Farm farm_;
-    std::optional<GuestDoor> door_;
+    std::optional<JoinListener> door_;
     std::size_t pass_count_ = 0;      ///< 0: not known
     const std::uint32_t spp_before_;  ///< of the resumed run
     bool went_on_ = false;            ///< it has resumed that run

@@ -10,6 +10,7 @@
 #include "common/base/hash.h"
 #include "common/base/text/parse_text.h"
 #include "common/plan/effects/plan_text.h"
+#include "common/runs/run_files.h"
 #include "coordinator/input/lint/lint.h"
 #include "coordinator/words/decision_text.h"
 #include "coordinator/words/pass_text.h"
@@ -51,8 +52,8 @@ void RenderLog::tell_start(const RenderState& state, const NextPass& first) cons
                size_text(request_.content.scene.film), budget_text(first), folder_.string());
     if (continues)
         log_->info("{} passes with {} spp are done{}, {} of rendering", state.reports.size(), state.spp(),
-                   state.begun ? ", one is begun" : "",
-                   duration_text(state.begun ? state.begun->run_seconds : state.history.seconds));
+                   state.partial ? ", one is begun" : "",
+                   duration_text(state.partial ? state.partial->run_seconds : state.history.seconds));
     if (continues && request_.content.plan.job.farm.checkpoint_seconds == 0)
         log_->warn("no checkpoints (farm.checkpoint_seconds = 0): that of {} spp stays until the render is done",
                    state.spp());
@@ -128,7 +129,7 @@ void RenderLog::tell_result(const RenderResult& result, double elapsed_seconds) 
     const std::string& asked = request_.content.job.output.file;
     log_->info("{}", join_fields({fmt::format("{} spp", result.spp), duration_text(last.run_seconds),
                                   brief_error_text(last.error), "image " + hash_text(result.image_hash),
-                                  (asked.empty() ? folder_ / "image.exr" : std::filesystem::path(asked)).string()}));
+                                  (asked.empty() ? folder_ / kImageFile : std::filesystem::path(asked)).string()}));
     if (missed_target(request_, result))
         log_->warn("the error is above the {:.3g} % asked for: {}; the image is kept",
                    100 * request_.content.job.budget.error, why_missed(result));
@@ -166,7 +167,7 @@ std::string RenderLog::why_missed(const RenderResult& result) const {
 std::string RenderLog::replay_options() const {
     const std::filesystem::path run = std::filesystem::absolute(folder_);
     std::string options = " --run-dir " + shell_quoted(run.string());
-    if (request_.content.schedule.empty()) options += " --schedule " + shell_quoted((run / "schedule.toml").string());
+    if (request_.content.schedule.empty()) options += " --schedule " + shell_quoted((run / kScheduleFile).string());
     return options;
 }
 

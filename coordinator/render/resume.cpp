@@ -9,6 +9,7 @@
 #include "common/base/text/parse_text.h"
 #include "common/config/job_keys.h"
 #include "common/plan/resolve/resolved_file.h"
+#include "common/runs/run_files.h"
 #include "common/scene/pack/scene_codec.h"
 #include "coordinator/render/finished_render.h"
 #include "coordinator/run/run_folder.h"
@@ -35,7 +36,7 @@ void check_origin(const fs::path& run, const CheckpointOrigin& origin, const Ren
         refuse(run,
                "was rendered by another build (" + origin.build + "; this is " + request.origin.fingerprint.text() +
                    "): its bits could not go on",
-               "use that program, or: " + again + " --schedule " + shell_quoted((run / "schedule.toml").string()));
+               "use that program, or: " + again + " --schedule " + shell_quoted((run / kScheduleFile).string()));
     const std::string changed =
         first_difference(read_resolved(origin.resolved, (run / "resolved.toml").string()), request.content.plan.job);
     if (!changed.empty()) {
@@ -85,7 +86,7 @@ void go_on_from(std::shared_ptr<LoadedCheckpoint> checkpoint, const fs::path& ru
     for (const std::string& warning : loaded.warnings)
         request.content.warnings.push_back(warning);
     const std::uint32_t spp = loaded.state.spp();
-    if (!loaded.state.begun && !passes_of(request)(loaded.state.history).pass && has_written(run, request, spp))
+    if (!loaded.state.partial && !passes_of(request)(loaded.state.history).pass && has_written(run, request, spp))
         refuse(run, "is done (" + std::to_string(spp) + " spp)",
                "add samples with --spp N above that, or --seconds or --error beyond what it has");
 }

@@ -2,54 +2,37 @@
 #include "coordinator/run/folder_content.h"
 
 #include <algorithm>
-#include <array>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "common/base/files/atomic_file.h"
 #include "common/base/text/parse_text.h"
 #include "common/base/text/printable.h"
-#include "coordinator/run/folder_lock.h"
-#include "coordinator/run/life_status.h"
+#include "common/runs/run_json.h"
 
 namespace treefarm {
 
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
-
-constexpr std::array<std::string_view, 13> kRunFiles = {
-    "status.json", "summary.json",  "job.toml",  "resolved.toml", "plan.txt", "plan.json", "log.txt",
-    "passes.csv",  "schedule.toml", "image.exr", "preview.png",   "tree.bin", "join"};
 
 bool has(const fs::path& path) {
     std::error_code error;
     return fs::exists(fs::symlink_status(path, error));
 }
 
-/// JSON object of a file; empty if it is missing or damaged.
-Json read_object(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    Json json = Json::parse(file, nullptr, false);
-    return json.is_object() ? json : Json::object();
+/// Text of a key as a message can hold it; "" where the file has none.
+std::string words_of(const RunJson& json, RunKey key) {
+    return printable(text_in(json, key));
 }
 
-std::string text_of(const Json& json, const char* key) {
-    const auto found = json.find(key);
-    return found != json.end() && found->is_string() ? printable(found->get<std::string>()) : "";
-}
-
-std::string number_of(const Json& json, const char* key) {
-    const auto found = json.find(key);
-    return found != json.end() && found->is_number_integer() ? std::to_string(found->get<std::int64_t>()) : "";
+std::string count_of(const RunJson& json, RunKey key) {
+    const RunJson number = number_of(json, key);
+    return number.is_number_integer() ? number.dump() : "";
 }
 
 /// Whether a file is a partial one of a killed run, which may be all that it left.
 bool is_leftover(const std::string& name) {
-    for (const std::string_view file : kRunFiles)
-        if (is_temporary_of(name, std::string(file))) return true;
-    return false;
+    return std::any_of(kRunFiles.begin(), kRunFiles.end(),
+                       [&](const RunFile& file) { return is_temporary_of(name, file.name); });
 }
 
 bool is_previous(const fs::path& path) {
@@ -84,10 +67,6 @@ bool holds_frames(const fs::path& folder) {
 
 }  // namespace
 
-std::span<const std::string_view> run_file_names() {
-    return kRunFiles;
-}
-
 std::string previous_name(int number) {
     return number == 1 ? "previous" : "previous-" + std::to_string(number);
 }
@@ -105,26 +84,26 @@ std::vector<fs::path> previous_runs(const fs::path& folder) {
 FolderContent folder_content(const fs::path& folder) {
     std::error_code error;
     if (!fs::is_directory(folder, error)) return has(folder) ? FolderContent::other : FolderContent::nothing;
-    if (has(folder / "study.json") || has(folder / "cells")) return FolderContent::study;
-    if (has(folder / "shot.json")) return FolderContent::shot;
-    if (has(folder / "passes.csv") || !text_of(read_object(folder / "status.json"), "state").empty())
+    if (has(folder / kStudyFile) || has(folder / kCellsFolder)) return FolderContent::study;
+    if (has(folder / kShotFile)) return FolderContent::shot;
+    if (has(folder / kPassesFile) || !text_in(read_run_json(folder / kStatusFile), "state").empty())
         return FolderContent::render;
     if (holds_frames(folder)) return FolderContent::shot;
     return holds_nothing(folder) ? FolderContent::nothing : FolderContent::other;
 }
 
 std::string render_words(const fs::path& folder) {
-    const Json summary = read_object(folder / "summary.json"), status = read_object(folder / "status.json");
-    std::string state = text_of(summary, "state"), spp = number_of(summary, "spp");
-    if (state.empty()) state = text_of(status, "state");
-    if (spp.empty()) spp = number_of(status, "spp_done");
-    if (state.empty() || state == "running") state = "broken off";  // no process uses the folder any more
+    const RunJson summary = read_run_json(folder / kSummaryFile), status = read_run_json(folder / kStatusFile);
+    std::string state = words_of(summary, "state"), spp = count_of(summary, "spp");
+    if (state.empty()) state = words_of(status, "state");
+    if (spp.empty()) spp = count_of(status, "spp_done");
+    if (state.empty() || state == "running") state = "broken off";  // nobody has the folder any more
     return state + ", " + (spp.empty() ? "0" : spp) + " spp";
 }
 
 std::string writer_words(const fs::path& folder) {
-    const Json status = read_object(folder / "status.json");
-    const std::string pid = number_of(status, "pid"), host = text_of(status, "host");
+    const RunJson status = read_run_json(folder / kStatusFile);
+    const std::string pid = count_of(status, "pid"), host = words_of(status, "host");
     return pid.empty() || host.empty() ? "" : "process " + pid + " on " + host;
 }
 

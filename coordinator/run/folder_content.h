@@ -2,9 +2,7 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace treefarm {
@@ -19,10 +17,7 @@ enum class FolderContent {
 };
 FolderContent folder_content(const std::filesystem::path& folder);
 
-/// Names of the files that a render leaves in its folder.
-std::span<const std::string_view> run_file_names();
-
-/// Subfolder name of an earlier run that was set aside: "previous", "previous-2", ... by number from 1.
+/// Name of the place where an earlier run lies aside in its folder: "previous", "previous-2", ... by number from 1.
 std::string previous_name(int number);
 /// Earlier runs that were set aside in a folder.
 std::vector<std::filesystem::path> previous_runs(const std::filesystem::path& folder);

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "common/base/timer.h"
+#include "common/runs/run_files.h"
 
 namespace treefarm {
 

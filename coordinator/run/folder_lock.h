@@ -6,10 +6,7 @@
 
 namespace treefarm {
 
-/// Name of the file that is locked where folders cannot be: on NFS.
-inline constexpr const char* kLockFileName = "lock";
-
-/// Lock of a folder for one program, until it is destroyed or its process ends. Not to be moved.
+/// Keeps a folder for one program at a time, until it is destroyed or its process ends. Not to be moved.
 class FolderLock {
   public:
     /// Waits up to `patience` seconds for another owner: the ranks of a killed launcher live on for a moment.

@@ -8,10 +8,7 @@
 
 namespace treefarm {
 
-/// Subfolder of a run directory for files of `treefarm launch`.
-inline constexpr const char* kLaunchFolder = "launch";
-
-/// Phase of a coordinator's work.
+/// What a coordinator is about.
 enum class LifePhase : std::uint8_t {
     start,    ///< nothing has been read yet
     scene,    ///< the input is being read

@@ -6,6 +6,7 @@
 
 #include "common/base/text/parse_text.h"
 #include "common/base/timer.h"
+#include "common/runs/run_files.h"
 #include "coordinator/run/last_files.h"
 
 namespace treefarm {
@@ -60,7 +61,7 @@ void RunCheckpoints::take_last(RenderState state) {
 
 CheckpointOrigin RunCheckpoints::origin_of(const RenderState& state) const {
     CheckpointOrigin origin = origin_;
-    origin.pixels = state.begun ? state.begun->done.pixel_count() : state.films.front().pixels.size();
+    origin.pixels = state.partial ? state.partial->done.pixel_count() : state.films.front().pixels.size();
     return origin;
 }
 
@@ -71,7 +72,7 @@ std::string RunCheckpoints::finish(bool done) {
         return "";
     }
     if (interval_ == 0) return "";
-    const bool has_all = last_state_ && !last_state_->begun && written_passes_ >= last_state_->reports.size();
+    const bool has_all = last_state_ && !last_state_->partial && written_passes_ >= last_state_->reports.size();
     if (has_all || (!last_state_ && !last_prepared_)) return "";
     std::vector<LastFile> file = {{folder_.string(), [this] {
                                        if (last_state_)
@@ -85,7 +86,7 @@ std::string RunCheckpoints::finish(bool done) {
     return "no checkpoint of the end: " + failures.front() + "; " +
            (done ? "the image is whole, but no samples can be added to it: for more, free space and "
                  : "what the one before it has is kept; or, with more space, ") +
-           "render again: treefarm render " + shell_quoted((folder_.parent_path() / "job.toml").string());
+           "render again: treefarm render " + shell_quoted((folder_.parent_path() / kJobFile).string());
 }
 
 }  // namespace treefarm

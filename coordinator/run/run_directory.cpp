@@ -16,7 +16,7 @@
 #include "common/plan/schedule/schedule_file.h"
 #include "common/protocol/fingerprint.h"
 #include "coordinator/display/preview.h"
-#include "coordinator/run/folder_content.h"
+#include "coordinator/run/pass_record.h"
 #include "coordinator/run/result_image.h"
 
 namespace treefarm {
@@ -62,7 +62,7 @@ const Job& checked(const Job& job) {
 /// Experiment of resolved.toml, which names the file of the passes if the job alone does not determine them.
 Experiment experiment_of(const Job& job, const RunFacts& facts, bool resumed) {
     const bool listed = !facts.schedule.empty() || job.budget.seconds > 0 || job.budget.error > 0 || resumed;
-    return {kProgramVersion, hash_text(facts.scene_hash), listed ? "schedule.toml" : ""};
+    return {kProgramVersion, hash_text(facts.scene_hash), listed ? kScheduleFile : ""};
 }
 
 /// Whether an image gets a preview: viewers and the PNG format limit its size.
@@ -101,7 +101,7 @@ RunDirectory::RunDirectory(const Job& job, RunFacts facts, const EffectPlan& pla
             note_pass(report);
     }
     write_first([&] {
-        write_text("status.json", status_json(facts_, RunState::running, 0, 0.0), Outlives::process);
+        write_text(kStatusFile, status_json(facts_, RunState::running, 0, 0.0), Outlives::process);
         if (!options.resumed) write_request_files();
     });
 }
@@ -111,11 +111,11 @@ void RunDirectory::write_request() {
 }
 
 void RunDirectory::write_request_files() const {
-    write_text("job.toml", job_toml_, Outlives::power);
-    write_text("resolved.toml", resolved_toml_, Outlives::power);
-    write_text("plan.txt", plan_text_, Outlives::power);
-    write_text("plan.json", plan_json_, Outlives::power);
-    write_text("passes.csv", passes_csv_, Outlives::power);
+    write_text(kJobFile, job_toml_, Outlives::power);
+    write_text(kResolvedFile, resolved_toml_, Outlives::power);
+    write_text(kPlanTextFile, plan_text_, Outlives::power);
+    write_text(kPlanFile, plan_json_, Outlives::power);
+    write_text(kPassesFile, passes_csv_, Outlives::power);
 }
 
 /// Runs the first write; throws InputError if the folder is not writable.
@@ -162,7 +162,7 @@ void RunDirectory::put_text(const std::string& name, std::string text, Pace pace
 void RunDirectory::write_status(const RenderProgress& progress, double elapsed_seconds, const Farm* farm) {
     if (elapsed_seconds - last_status_ < kStatusSeconds) return;
     last_status_ = elapsed_seconds;
-    put_text("status.json", status_json(facts_, progress, elapsed_seconds, farm, last_pass_ ? &*last_pass_ : nullptr),
+    put_text(kStatusFile, status_json(facts_, progress, elapsed_seconds, farm, last_pass_ ? &*last_pass_ : nullptr),
              {});
 }
 
@@ -175,9 +175,9 @@ void RunDirectory::write_preview(std::span<const PixelEstimate> film, int width,
     if (elapsed_seconds < next_preview_) return;
     const Timer timer;
     auto pass = std::make_shared<const PartialPass>(partial_pass(film));
-    writer_.put("preview.png", [this, image = newest_, spp = newest_spp_, pass, width, height] {
+    writer_.put(kPreviewFile, [this, image = newest_, spp = newest_spp_, pass, width, height] {
         const double before = thread_cpu_seconds();
-        write_bytes("preview.png", encode_png(preview_image(*image, spp, *pass, width, height)), Outlives::process);
+        write_bytes(kPreviewFile, encode_png(preview_image(*image, spp, *pass, width, height)), Outlives::process);
         preview_seconds_ = thread_cpu_seconds() - before;
     });
     const double cost =
@@ -194,8 +194,8 @@ void RunDirectory::note_pass(const PassReport& report) {
 void RunDirectory::add_pass(const PassReport& report) {
     note_pass(report);
     last_pass_ = report;
-    put_text("passes.csv", passes_csv_, kPassPace);
-    put_text("schedule.toml", write_schedule(passes_), kPassPace);
+    put_text(kPassesFile, passes_csv_, kPassPace);
+    put_text(kScheduleFile, write_schedule(passes_), kPassPace);
 }
 
 /// Header attributes of image.exr.
@@ -228,12 +228,12 @@ void RunDirectory::write_image(const RenderResult& result) {
     newest_ = result.image;
     newest_spp_ = result.spp;
     writer_.put(
-        "image.exr",
+        kImageFile,
         [this, image = result.image, aovs = result.aovs, width = result.width, height = result.height,
          attributes = image_attributes(result)] {
             write_bytes(
-                "image.exr",
-                encode_image(path() / "image.exr", *image, *aovs, width, height, facts_.crop, attributes, storage_),
+                kImageFile,
+                encode_image(path() / kImageFile, *image, *aovs, width, height, facts_.crop, attributes, storage_),
                 Outlives::power);
             const std::lock_guard lock(on_disk_mutex_);
             on_disk_ = image;
@@ -244,7 +244,7 @@ void RunDirectory::write_image(const RenderResult& result) {
 bool RunDirectory::image_is_on_disk(const RenderResult& result) const {
     const std::lock_guard lock(on_disk_mutex_);
     std::error_code none;
-    return on_disk_.lock() == result.image && fs::exists(path() / "image.exr", none);
+    return on_disk_.lock() == result.image && fs::exists(path() / kImageFile, none);
 }
 
 /// Final versions of the result files, most important first.
@@ -257,7 +257,7 @@ std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outli
         const auto encoded = std::make_shared<std::vector<std::uint8_t>>();  // shared by both files
         const auto image = [this, encoded, &result]() -> const std::vector<std::uint8_t>& {
             if (encoded->empty())
-                *encoded = encode_image(path() / "image.exr", *result.image, *result.aovs, result.width, result.height,
+                *encoded = encode_image(path() / kImageFile, *result.image, *result.aovs, result.width, result.height,
                                         facts_.crop, image_attributes(result), storage_);
             return *encoded;
         };
@@ -265,8 +265,8 @@ std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outli
             return encode_png(result_colours(*result.image, result.width, result.height));
         };
         if (!image_is_on_disk(result))
-            add("image.exr", [=, this, &result] {
-                write_bytes("image.exr", image(), outlives);
+            add(kImageFile, [=, this, &result] {
+                write_bytes(kImageFile, image(), outlives);
                 const std::lock_guard lock(on_disk_mutex_);
                 on_disk_ = result.image;
             });
@@ -277,20 +277,20 @@ std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outli
                                  else
                                      write_file_atomically(job_.output.file, image(), outlives);
                              }});
-        add("passes.csv", [=, this] { write_text("passes.csv", passes_csv_, outlives); });
-        add("schedule.toml", [=, this] { write_text("schedule.toml", write_schedule(passes_), outlives); });
+        add(kPassesFile, [=, this] { write_text(kPassesFile, passes_csv_, outlives); });
+        add(kScheduleFile, [=, this] { write_text(kScheduleFile, write_schedule(passes_), outlives); });
         if (result.tree.trained())
-            add("tree.bin", [=, this, &result, &end] {
+            add(kTreeFile, [=, this, &result, &end] {
                 const Bytes tree = result.tree.encode();
-                write_bytes("tree.bin", tree, outlives);
+                write_bytes(kTreeFile, tree, outlives);
                 end.tree_file_hash = hash_text(hash_bytes(tree));
             });
         if (has_preview(result.image->mean.size()))
-            add("preview.png", [=, this] { write_bytes("preview.png", picture(), outlives); });
+            add(kPreviewFile, [=, this] { write_bytes(kPreviewFile, picture(), outlives); });
     }
-    // Only if the folder vanished: they were written at the start.
-    for (const auto& [name, text] : {std::pair("job.toml", &job_toml_), std::pair("resolved.toml", &resolved_toml_),
-                                     std::pair("plan.txt", &plan_text_), std::pair("plan.json", &plan_json_)})
+    // Only where the folder vanished: they were written at the start.
+    for (const auto& [name, text] : {std::pair(kJobFile, &job_toml_), std::pair(kResolvedFile, &resolved_toml_),
+                                     std::pair(kPlanTextFile, &plan_text_), std::pair(kPlanFile, &plan_json_)})
         if (std::error_code none; !fs::exists(path() / name, none))
             add(name, [=, this, name = std::string(name), text = text] { write_text(name, *text, outlives); });
     return files;
@@ -299,18 +299,18 @@ std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outli
 /// Final versions of summary.json and status.json.
 std::vector<LastFile> RunDirectory::end_files(const RenderResult& result, const Farm* farm, const RunEnd& end,
                                               Outlives outlives) const {
-    return {{(path() / "summary.json").string(),
+    return {{(path() / kSummaryFile).string(),
              [=, this, &result, &end] {
-                 write_text("summary.json", summary_json(job_, facts_, result, farm, end), outlives);
+                 write_text(kSummaryFile, summary_json(job_, facts_, result, farm, end), outlives);
              }},
-            {(path() / "status.json").string(), [=, this, &result, &end] {
-                 write_text("status.json", status_json(facts_, end.state, result.spp, end.elapsed_seconds), outlives);
+            {(path() / kStatusFile).string(), [=, this, &result, &end] {
+                 write_text(kStatusFile, status_json(facts_, end.state, result.spp, end.elapsed_seconds), outlives);
              }}};
 }
 
 void RunDirectory::write_interruption(const RenderResult& result, const Farm* farm, double elapsed_seconds) {
     if (!result.passes.empty() && !image_is_on_disk(result)) return;
-    writer_.forget("status.json");  // a waiting "running" must not be written later
+    writer_.forget(kStatusFile);  // "running" must not come after it
     const RunEnd end{RunState::interrupted, "", elapsed_seconds, ""};
     std::vector<LastFile> files = end_files(result, farm, end, Outlives::process);
     write_last_files(files, 0.0);
@@ -326,8 +326,8 @@ std::vector<std::string> RunDirectory::take_news() {
 void RunDirectory::leave(RunState state, std::uint32_t spp, double elapsed_seconds) {
     writer_.stop();
     std::vector<LastFile> files = {
-        {(path() / "status.json").string(),
-         [&] { write_text("status.json", status_json(facts_, state, spp, elapsed_seconds), Outlives::power); }}};
+        {(path() / kStatusFile).string(),
+         [&] { write_text(kStatusFile, status_json(facts_, state, spp, elapsed_seconds), Outlives::power); }}};
     write_last_files(files, 0.0);
 }
 
@@ -356,8 +356,8 @@ std::vector<std::string> RunDirectory::finish(const RenderResult& result, const 
     }
     if (const std::string why = checkpoints_.finish(end.state == RunState::done); !why.empty()) failures.push_back(why);
     if (hurry) {
-        for (const std::string_view name : run_file_names())
-            make_durable(path() / name);
+        for (const RunFile& file : kRunFiles)
+            make_durable(path() / file.name);
         if (!job_.output.file.empty()) make_durable(job_.output.file);
     }
     if (end.state == RunState::done) folder_.remove_previous();

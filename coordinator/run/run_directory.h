@@ -16,6 +16,7 @@
 #include "common/config/job.h"
 #include "common/image/exr.h"
 #include "common/plan/effects/effects.h"
+#include "common/runs/run_files.h"
 #include "coordinator/passes/pass_loop.h"
 #include "coordinator/run/file_writer.h"
 #include "coordinator/run/last_files.h"
@@ -43,8 +44,8 @@ class RunDirectory {
     RunDirectory(const Job& job, RunFacts facts, const EffectPlan& plan, const RunDirectoryOptions& options = {});
 
     const std::filesystem::path& path() const { return folder_.path(); }
-    std::filesystem::path log_file() const { return path() / "log.txt"; }
-    std::size_t passes() const { return passes_.size(); }  ///< number of finished passes
+    std::filesystem::path log_file() const { return path() / kLogFile; }
+    std::size_t passes() const { return passes_.size(); }  ///< that are finished
 
     /// Writes the files known before the render, in place of those of the resumed run, once it continues. Throws as the
     /// constructor.

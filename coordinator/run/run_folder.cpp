@@ -6,6 +6,7 @@
 
 #include "common/base/files/atomic_file.h"
 #include "common/base/refuse.h"
+#include "common/runs/run_files.h"
 #include "coordinator/run/folder_content.h"
 
 namespace treefarm {
@@ -40,9 +41,10 @@ fs::path make_folder(const Job& job) {
 
 /// Names of a run's files, and of the images that treefarm inspect made of it.
 std::vector<std::string> moved_names() {
-    std::vector<std::string> names(run_file_names().begin(), run_file_names().end());
-    names.emplace_back("inspect");
-    names.emplace_back("checkpoint");
+    std::vector<std::string> names;
+    for (const RunFile& file : kRunFiles)
+        names.emplace_back(file.name);
+    names.insert(names.end(), {kInspectFolder, kCheckpointFolder});
     return names;
 }
 
@@ -104,8 +106,8 @@ void RunFolder::check() const {
 /// Removes partial files of a killed run.
 void RunFolder::remove_leftovers() const {
     for (const auto& entry : fs::directory_iterator(path_))
-        for (const std::string_view name : run_file_names())
-            if (is_temporary_of(entry.path().filename().string(), std::string(name)) && !entry.is_directory())
+        for (const RunFile& file : kRunFiles)
+            if (is_temporary_of(entry.path().filename().string(), file.name) && !entry.is_directory())
                 fs::remove(entry.path());
 }
 

@@ -4,88 +4,18 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "common/base/hash.h"
 #include "common/base/host.h"
 #include "common/plan/effects/plan_text.h"
+#include "coordinator/run/pass_record.h"
 #include "coordinator/words/tail_report.h"
 
 namespace treefarm {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-/// Error as JSON; unknown and infinite values are null.
-Json error_json(const ErrorEstimate& error) {
-    if (!error.known) return nullptr;
-    const auto end = [&](double value) { return error.has_interval ? Json(value) : Json(); };
-    return {{"relative", error.relative()},
-            {"low", end(error.relative_low())},
-            {"high", end(error.relative_high())},
-            {"rmse", error.rmse},
-            {"rmse_low", end(error.low)},
-            {"rmse_high", end(error.high)},
-            {"mean", error.mean}};
-}
-
-Json forecast_json(const ErrorForecast& forecast) {
-    return {{"relative_error", forecast.relative_error},
-            {"spp", forecast.spp},
-            {"seconds", forecast.seconds},
-            {"trust", trust_name(forecast.trust)}};
-}
-
-Json pass_json(const PassReport& r) {
-    return {{"pass", r.plan.index},
-            {"spp", r.plan.spp},
-            {"spp_done", r.spp_done},
-            {"seconds", r.seconds.all},
-            {"phase_seconds", r.seconds.phases()},
-            {"run_seconds", r.run_seconds},
-            {"core_seconds", r.core_seconds()},
-            {"stuv", r.variance.stuv},
-            {"stuv_trimmed", r.variance.stuv_trimmed},
-            {"stuv_ppg", r.variance.stuv_ppg},
-            {"ttuv", r.ttuv()},
-            {"image_error", error_json(r.error)},
-            {"efficiency", r.efficiency()},
-            {"halving", forecast_json(r.halving)},
-            {"rays_per_second", r.rays_per_second()},
-            {"nonzero_share", r.nonzero_share()},
-            {"invalid_samples", r.stats.invalid_samples},
-            {"tree_nodes", r.tree.nodes},
-            {"tree_regions", r.tree.regions},
-            {"guided", r.plan.guided},
-            {"guiding_worth", r.guiding_worth.worth},
-            {"guiding_worth_low", r.guiding_worth.low()},
-            {"guiding_worth_high", r.guiding_worth.high()},
-            {"next_event_n", r.next_event_samples()},
-            {"next_event_low", r.refine.next_event.low},
-            {"next_event_saved", r.refine.next_event.saved},
-            {"split", r.plan.split},
-            {"splitting_quietens", r.splitting_gain.variance},
-            {"splitting_rays", r.splitting_gain.rays},
-            {"splitting_found", r.splitting_gain.found},
-            {"light_subpaths", r.has_light_subpaths()},
-            {"light_subpaths_quieten", r.light_subpath_gain.noise},
-            {"light_subpaths_rays", r.light_subpath_gain.rays},
-            {"camera_paths_found", r.light_subpath_gain.found},
-            {"emitters", r.emitters},
-            {"emitters_of_half", r.emitters_of_half},
-            {"tree_views", r.tree.views},
-            {"tree_cells", r.tree.cells},
-            {"tree_bytes", r.tree.bytes},
-            {"tree_memory", r.tree.memory},
-            {"update_bytes", r.update_bytes},
-            {"splat_bytes", r.splat_bytes},
-            {"trace_seconds",
-             {{"min", r.seconds.trace.min},
-              {"mean", r.seconds.trace.mean},
-              {"max", r.seconds.trace.max},
-              {"max_worker", r.seconds.trace.max_worker}}}};
-}
+using Json = RunJson;
 
 Json build_json(const Fingerprint& build) {
     return {{"source", build.source},
@@ -95,20 +25,16 @@ Json build_json(const Fingerprint& build) {
             {"program", hash_text(build.program)}};
 }
 
-const char* member_state_name(MemberState state) {
-    switch (state) {
-        case MemberState::present:
-            return "present";
-        case MemberState::lost:
-            return "lost";
-        case MemberState::refused:
-            return "refused";
-        case MemberState::left:
-            return "left";
-        case MemberState::barred:
-            return "barred";
-    }
-    return "";
+/// In the order of MemberState and RunState.
+constexpr const char* kMemberStates[] = {"present", "lost", "refused", "left", "barred"};
+constexpr const char* kRunStates[] = {"running", "done", "interrupted", "failed"};
+
+const char* state_name(MemberState state) {
+    return kMemberStates[static_cast<std::size_t>(state)];
+}
+
+const char* state_name(RunState state) {
+    return kRunStates[static_cast<std::size_t>(state)];
 }
 
 /// UTC time, to the minute.
@@ -150,7 +76,7 @@ Json worker_json(const Member& member, const PassReport* last) {
     return {{"worker", member.peer},
             {"host", member.hello.host},
             {"threads", member.hello.threads},
-            {"state", member_state_name(member.state)},
+            {"state", state_name(member.state)},
             {"losses", losses(member)},
             {"paths_per_second", speed ? Json(*speed) : Json()},
             {"rays", member.progress.rays},
@@ -193,24 +119,10 @@ Json crop_json(const CropWindow& crop) {
 
 }  // namespace
 
-const char* run_state_name(RunState state) {
-    switch (state) {
-        case RunState::running:
-            return "running";
-        case RunState::done:
-            return "done";
-        case RunState::interrupted:
-            return "interrupted";
-        case RunState::failed:
-            return "failed";
-    }
-    return "";
-}
-
 std::string status_json(const RunFacts& facts, const RenderProgress& progress, double elapsed_seconds, const Farm* farm,
                         const PassReport* last_pass) {
     const double left = progress.fraction > 0 ? elapsed_seconds * (1 - progress.fraction) / progress.fraction : 0.0;
-    Json status = {{"state", run_state_name(RunState::running)},
+    Json status = {{"state", state_name(RunState::running)},
                    {"pass", progress.pass},
                    {"passes", progress.pass_count},
                    {"spp_done", progress.spp_done},
@@ -218,26 +130,26 @@ std::string status_json(const RunFacts& facts, const RenderProgress& progress, d
                    {"fraction", progress.fraction},
                    {"elapsed_seconds", elapsed_seconds},
                    {"seconds_left", left},
-                   {"image_error", error_json(progress.error)},
+                   {"image_error", error_record(progress.error)},
                    {"workers", progress.workers},
                    {"rays", progress.rays},
                    {"run_seconds", progress.run_seconds}};
-    if (last_pass) status["halving"] = forecast_json(last_pass->halving);
-    if (last_pass && last_pass->target.relative_error > 0) status["target"] = forecast_json(last_pass->target);
+    if (last_pass) status["halving"] = forecast_record(last_pass->halving);
+    if (last_pass && last_pass->target.relative_error > 0) status["target"] = forecast_record(last_pass->target);
     if (farm) status["farm"] = farm_json(*farm, last_pass);
     add_writer(status, facts);
     return text_of(status);
 }
 
 std::string status_json(const RunFacts& facts, RunState state, std::uint32_t spp_done, double elapsed_seconds) {
-    Json status = {{"state", run_state_name(state)}, {"spp_done", spp_done}, {"elapsed_seconds", elapsed_seconds}};
+    Json status = {{"state", state_name(state)}, {"spp_done", spp_done}, {"elapsed_seconds", elapsed_seconds}};
     add_writer(status, facts);
     return text_of(status);
 }
 
 std::string summary_json(const Job& job, const RunFacts& facts, const RenderResult& result, const Farm* farm,
                          const RunEnd& end) {
-    Json summary = {{"state", run_state_name(end.state)},
+    Json summary = {{"state", state_name(end.state)},
                     {"version", kProgramVersion},
                     {"command", facts.command},
                     {"scene", job.scene.file},
@@ -256,8 +168,8 @@ std::string summary_json(const Job& job, const RunFacts& facts, const RenderResu
                     {"aov_hash", result.aovs->empty() ? "" : hash_text(result.aov_hash)},
                     {"tree_hash", result.spp > 0 ? hash_text(result.tree_hash) : ""},
                     {"tree_file_hash", end.tree_file_hash},
-                    {"image_error", result.passes.empty() ? Json() : error_json(result.passes.back().error)},
-                    {"halving", result.passes.empty() ? Json() : forecast_json(result.passes.back().halving)},
+                    {"image_error", result.passes.empty() ? Json() : error_record(result.passes.back().error)},
+                    {"halving", result.passes.empty() ? Json() : forecast_record(result.passes.back().halving)},
                     {"pass_weights", result.image->weight}};
     add_tails(summary, tail_report(*result.image, result.passes));
     if (job.budget.error > 0 && !result.passes.empty())
@@ -270,7 +182,7 @@ std::string summary_json(const Job& job, const RunFacts& facts, const RenderResu
         summary["approximations"].push_back(approximation_text(approximation));
     summary["passes"] = Json::array();
     for (const PassReport& report : result.passes)
-        summary["passes"].push_back(pass_json(report));
+        summary["passes"].push_back(pass_record(report, kInSummary));
     if (farm) summary["farm"] = farm_json(*farm, result.passes.empty() ? nullptr : &result.passes.back());
     return text_of(summary);
 }

@@ -15,7 +15,6 @@ namespace treefarm {
 
 /// State of a run.
 enum class RunState : std::uint8_t { running, done, interrupted, failed };
-const char* run_state_name(RunState state);
 
 /// Facts about a run, for its files.
 struct RunFacts {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/files/atomic_file.h"
+#include "common/runs/run_files.h"
 #include "coordinator/farm/pulse.h"
 #include "coordinator/render/finished_render.h"
 #include "coordinator/render/resume.h"
@@ -101,7 +102,7 @@ class ShotRun {
         const std::string text =
             shot_json(context_.origin.command, records_).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) +
             "\n";
-        write_file_atomically(shot_.directory / "shot.json",
+        write_file_atomically(shot_.directory / kShotFile,
                               {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     }
 
@@ -137,7 +138,7 @@ class ShotRun {
         bool is_there = false;
         {
             const ReadingNotice notice(context_.console, "frame " + frame_digits(record.frame));
-            run_aside(
+            run_in_background(
                 [&] {
                     request = shot_.read_request(record.frame);
                     is_there = holds_result_of(folder, request);
@@ -169,7 +170,7 @@ class ShotRun {
                 record.state = FrameState::interrupted;
                 return;
             default:
-                fail(record, "see " + (folder / "log.txt").string());
+                fail(record, "see " + (folder / kLogFile).string());
         }
     }
 
@@ -202,8 +203,8 @@ class ShotRun {
     }
 
     void tell(const FrameRecord& record) const {
-        log_->info("{}", join_fields({progress_.place(), frame_digits(record.frame), fmt::format("{} spp", record.spp),
-                                      duration_text(record.seconds),
+        log_->info("{}", join_fields({progress_.position(), frame_digits(record.frame),
+                                      fmt::format("{} spp", record.spp), duration_text(record.seconds),
                                       record.error ? fmt::format("error {:.3g} %", 100 * *record.error) : "",
                                       record.state == FrameState::kept ? "kept: it was done before" : "",
                                       record.missed_target ? "above the error asked for" : ""}));
@@ -239,7 +240,7 @@ class ShotRun {
     const Log log_;
     const std::function<bool()>& interrupted_;
     std::vector<FrameRecord> records_;
-    std::vector<LastFile> index_ = {{"shot.json", [this] { write_index(); }, "", true}};
+    std::vector<LastFile> index_ = {{kShotFile, [this] { write_index(); }, "", true}};
     std::map<std::string, int> outputs_;
     std::set<std::string> told_;
     SeriesProgress progress_;

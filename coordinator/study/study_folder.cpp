@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/study/study_folder.h"
 
-#include <fstream>
-#include <nlohmann/json.hpp>
-
 #include "common/base/text/printable.h"
+#include "common/runs/run_json.h"
 #include "coordinator/run/folder_content.h"
 
 namespace treefarm {
@@ -13,10 +11,7 @@ namespace {
 
 /// Name of the study file that study.json was made from; "" if unknown.
 std::string study_file_name(const std::filesystem::path& folder) {
-    std::ifstream file(folder / "study.json", std::ios::binary);
-    const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
-    if (!json.is_object() || !json.contains("study") || !json["study"].is_string()) return "";
-    return std::filesystem::path(json["study"].get<std::string>()).filename().string();
+    return std::filesystem::path(text_in(read_run_json(folder / kStudyFile), "study")).filename().string();
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/files/atomic_file.h"
-#include "common/base/hash.h"
 #include "common/base/text/parse_text.h"
 #include "common/image/exr.h"
 #include "coordinator/farm/pulse.h"
@@ -138,7 +137,7 @@ class StudyRun {
                     describe(cell, ready.back());
                 }
         };
-        run_aside(make_ready, [&] { pulse_.beat(); });
+        run_in_background(make_ready, [&] { pulse_.beat(); });
         prepare_reference(scene, reference, reference_request);
         description_["scenes"][scene]["reference"] = reference.about;
         write_json(directory_ / "study.json", description_);
@@ -151,7 +150,7 @@ class StudyRun {
     LoadedScene load(const StudyScene& scene) {
         const ReadingNotice notice(context_.console, scene.name);
         LoadedScene loaded;
-        run_aside([&] { loaded = load_study_scene(study_, scene); }, [&] { pulse_.beat(); });
+        run_in_background([&] { loaded = load_study_scene(study_, scene); }, [&] { pulse_.beat(); });
         return loaded;
     }
 
@@ -170,7 +169,9 @@ class StudyRun {
             if (!fs::exists(reference.mark())) {
                 log_->info("{}: rendering the reference", of.name);
                 const fs::path folder = fs::path(reference.file).parent_path();
-                const auto frame = [&of](const RenderWords& w) { return aside_status("reference of " + of.name, w); };
+                const auto frame = [&of](const RenderWords& w) {
+                    return auxiliary_status("reference of " + of.name, w);
+                };
                 if (render(request, folder, frame).state != RunState::done)
                     throw RunError("the reference of " + of.name + " could not be rendered: see " +
                                    (folder / "log.txt").string());
@@ -202,7 +203,7 @@ class StudyRun {
         const std::string name = "warm-up of " + study_.scenes[scene].name;
         for (int k = 0; needed && k < study_.warmup; ++k) {
             RenderRequest& request = ready[static_cast<std::size_t>(k) % ready.size()].request;
-            render(request, directory_ / "warmup", [&name](const RenderWords& w) { return aside_status(name, w); });
+            render(request, directory_ / "warmup", [&name](const RenderWords& w) { return auxiliary_status(name, w); });
         }
     }
 
@@ -223,7 +224,7 @@ class StudyRun {
             return;
         }
         Json record;
-        run_aside([&] { record = render_record(passes, reference.image); }, [&] { pulse_.beat(); });
+        run_in_background([&] { record = render_record(passes, reference.image); }, [&] { pulse_.beat(); });
         tell(cell, record);
         write_json(ready.folder / "cell.json", record);
         progress_.end(timer.seconds());
@@ -232,7 +233,7 @@ class StudyRun {
     void tell(const StudyCell& cell, const Json& record) const {
         const Json& last = record["passes"].back();
         log_->info(
-            "{}", join_fields({progress_.place(), cell_words(study_, cell),
+            "{}", join_fields({progress_.position(), cell_words(study_, cell),
                                fmt::format("{} spp", last["spp_done"].get<int>()),
                                duration_text(last["run_seconds"].get<double>()),
                                fmt::format("error {:.3g} %", 100 * last["measured"]["rmse_over_mean"].get<double>())}));

@@ -27,17 +27,17 @@ std::string variance_ratio(double ratio) {
     return fmt::format("{:.2g} times the variance", ratio);
 }
 
-DecisionText guiding(Guiding verdict, const GuidingWorth& w) {
+DecisionText guiding(Guiding verdict, const GuidingEfficiency& w) {
     const bool guided = verdict != Guiding::loses;
-    const auto saved = [guided](double worth) { return 1 - (guided ? 1 / worth : worth); };
+    const auto saved = [guided](double efficiency) { return 1 - (guided ? 1 / efficiency : efficiency); };
     const double at_most = std::max(saved(w.low()), saved(w.high())),
                  at_least = std::min(saved(w.low()), saved(w.high()));
     const std::string why =
         fmt::format("an unguided sample would have {} of a guided one, at {:.2g} of its cost",
                     variance_ratio(w.unguided_variance / w.guided_variance), w.unguided_cost / w.guided_cost);
     const char* const what = guided ? "guided" : "unguided";
-    const bool too_little = w.known < kPolicy.guiding.least_known;
-    if (guided && (too_little || saved(w.worth) <= 0))
+    const bool too_little = w.known < tuned("guiding.least_known");
+    if (guided && (too_little || saved(w.efficiency) <= 0))
         return {
             "guiding",
             fmt::format("guided for now: {}{}; so far {}", too_little ? "too little is known" : "it may lose",
@@ -45,11 +45,12 @@ DecisionText guiding(Guiding verdict, const GuidingWorth& w) {
                         : too_little ? ""
                                      : ", but not surely enough to give it up",
                         why)};
-    if (saved(w.worth) <= 0)
+    if (saved(w.efficiency) <= 0)
         return {"guiding", fmt::format("unguided as long as guiding is not sure to pay again: {}", why)};
-    if (std::lround(100 * saved(w.worth)) == 0)
+    if (std::lround(100 * saved(w.efficiency)) == 0)
         return {"guiding", fmt::format("{}, which costs as much as not: {}", what, why)};
-    return {"guiding", fmt::format("{}, which saves {}: {}", what, saving(saved(w.worth), at_least, at_most), why)};
+    return {"guiding",
+            fmt::format("{}, which saves {}: {}", what, saving(saved(w.efficiency), at_least, at_most), why)};
 }
 
 /// Adds the decision on next event, unless an emitter is sampled at nearly each vertex.
@@ -66,7 +67,7 @@ void add_next_event(const PassReport& r, std::vector<DecisionText>& texts) {
     if (saves)
         words +=
             fmt::format(", which saves about {:.0f} % of the work (by {:.2g} standard errors wherever it is rarer)",
-                        100 * (1 - verdict.saved), kPolicy.next_event.standard_errors);
+                        100 * (1 - verdict.saved), tuned("next_event.standard_errors"));
     texts.push_back({"next event", std::move(words)});
 }
 
@@ -74,7 +75,7 @@ void add_splitting(const PassReport& r, std::vector<DecisionText>& texts) {
     if (!r.plan.split || r.splitting) return;
     const SplittingGain& gain = r.splitting_gain;
     std::string why = "unsplit samples would have " + variance_ratio(gain.variance);
-    if (gain.variance >= kPolicy.splitting.least_quietened) {
+    if (gain.variance >= tuned("splitting.least_quietened")) {
         why += fmt::format(" for {:.2g} of the rays", 1 / gain.rays);
         if (r.plan.next_event) why += ", and copies cost more than their rays";
     }
@@ -95,7 +96,7 @@ void add_light_subpaths(const PassReport& r, std::vector<DecisionText>& texts) {
 
 std::vector<DecisionText> decision_texts(const PassReport& report) {
     std::vector<DecisionText> texts;
-    if (report.guiding_worth.worth > 0) texts.push_back(guiding(report.guiding, report.guiding_worth));
+    if (report.guiding_efficiency.efficiency > 0) texts.push_back(guiding(report.guiding, report.guiding_efficiency));
     add_next_event(report, texts);
     add_splitting(report, texts);
     add_light_subpaths(report, texts);

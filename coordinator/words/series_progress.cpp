@@ -19,7 +19,7 @@ void SeriesProgress::end(double seconds) {
     rendered_seconds_ += seconds;
 }
 
-std::string SeriesProgress::place() const {
+std::string SeriesProgress::position() const {
     return fmt::format("{} {}/{}", noun_, number_, count_);
 }
 
@@ -34,12 +34,12 @@ Status SeriesProgress::status(const RenderWords& w) const {
     Status status;
     const double before = static_cast<double>(number_) - 1;
     status.fraction = (before + std::clamp(w.fraction, 0.0, 1.0)) / static_cast<double>(count_);
-    status.fields = {place(), left(w.run_seconds), name_, w.how_far, w.pass};
-    status.line = join_fields({place(), name_, w.pass, w.how_far, w.since_begin, left(w.run_seconds)});
+    status.fields = {position(), left(w.run_seconds), name_, w.how_far, w.pass};
+    status.line = join_fields({position(), name_, w.pass, w.how_far, w.since_begin, left(w.run_seconds)});
     return status;
 }
 
-Status aside_status(const std::string& name, const RenderWords& w) {
+Status auxiliary_status(const std::string& name, const RenderWords& w) {
     Status status;
     status.fraction = w.fraction;
     status.fields = {name, w.left, w.how_far, w.pass, w.error};

@@ -21,7 +21,7 @@ class SeriesProgress {
     /// Status of this render.
     Status status(const RenderWords& words) const;
     /// Number of this render: "cell 3/24".
-    std::string place() const;
+    std::string position() const;
     /// "about 5:10 left" for the whole series, `seconds` after this render began; empty before one was rendered.
     std::string left(double seconds) const;
 
@@ -35,6 +35,6 @@ class SeriesProgress {
 };
 
 /// Status of a study's render that is not a cell: "reference of box", "warm-up of box".
-Status aside_status(const std::string& name, const RenderWords& words);
+Status auxiliary_status(const std::string& name, const RenderWords& words);
 
 }  // namespace treefarm

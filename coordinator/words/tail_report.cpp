@@ -6,13 +6,16 @@
 #include <algorithm>
 #include <map>
 
-#include "common/base/policy.h"
 #include "common/film/noise_share.h"
 
 namespace treefarm {
 namespace {
 
-/// Worst samples of the passes that contribute to the image, which are the last ones.
+constexpr double kNoisePart = 0.4;          ///< of an image's noise, by the fewest pixels that carry it
+constexpr double kToldShare = 0.001;        ///< of all pixels: fewer that carry so much are told
+constexpr std::size_t kLeastPixels = 4096;  ///< of smaller images a thousandth is a handful
+
+/// The samples of passes that have weight in the image, which are the last ones.
 TailSamples samples_of_image(const CombinedImage& image, std::span<const PassReport> passes) {
     TailSamples all;
     const std::size_t count = std::min(image.weight.size(), passes.size());
@@ -40,11 +43,11 @@ std::string main_origin(const TailSamples& samples) {
 TailReport tail_report(const CombinedImage& image, std::span<const PassReport> passes) {
     TailReport report;
     if (image.longest_pass < 2) return report;
-    report.share = noise_share(image.variance, kPolicy.tails.noise_part);
+    report.share = noise_share(image.variance, kNoisePart);
     report.worst = samples_of_image(image, passes);
     report.origin = main_origin(report.worst);
-    report.stands_out = report.share && *report.share < kPolicy.tails.told_share && !report.worst.worst.empty() &&
-                        image.variance.size() >= kPolicy.tails.least_pixels;
+    report.stands_out = report.share && *report.share < kToldShare && !report.worst.worst.empty() &&
+                        image.variance.size() >= kLeastPixels;
     return report;
 }
 
@@ -52,8 +55,8 @@ std::string tail_text(const TailReport& tails, const std::string& debug_command,
     const TailSample& worst = tails.worst.worst.front();
     return fmt::format(
         "{:.2g} % of the pixels carry {:.0f} % of the noise: {}; worst: pixel ({}, {}); see it: {} {},{},{},{}{}",
-        100 * tails.share.value_or(0), 100 * kPolicy.tails.noise_part, tails.origin, worst.x, worst.y, debug_command,
-        worst.pass, worst.x, worst.y, worst.sample, debug_options);
+        100 * tails.share.value_or(0), 100 * kNoisePart, tails.origin, worst.x, worst.y, debug_command, worst.pass,
+        worst.x, worst.y, worst.sample, debug_options);
 }
 
 }  // namespace treefarm

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <set>
 #include <thread>
 #include <utility>
@@ -176,6 +175,25 @@ class FarmTest : public ::testing::Test {
         ends_.assign(std::size_t(count), WorkerEnd::orderly);
     }
 
+    /// Two workers. `act` gets the first one's first result on its way; the second one waits for that.
+    void on_first_result(std::function<void(Bytes&)> act) {
+        make_workers(2);
+        first_ = 0;
+        renderers_[1] = make_patient(sent_);
+        faulty_[0]->outgoing = [this, act = std::move(act)](Bytes& bytes) {
+            if (is<Result>(bytes) && !sent_.exchange(true)) act(bytes);
+            return true;
+        };
+    }
+    /// Two workers; `change` alters the first one's first result on its way.
+    void change_first_result(std::function<void(Result&)> change) {
+        on_first_result([change = std::move(change)](Bytes& bytes) {
+            auto result = std::get<Result>(decode(bytes));
+            change(result);
+            bytes = encode(result);
+        });
+    }
+
     void start_worker(std::size_t w) {
         threads_.emplace_back([this, w] {
             for (int k = 0; first_ && w != *first_ && k < 20'000 && !faulty_[*first_]->worked; ++k)
@@ -259,7 +277,8 @@ class FarmTest : public ::testing::Test {
     std::optional<std::size_t> first_;
     std::optional<RenderState> resumed_;  ///< taken: what the render goes on from
     JobTurn turn_;
-    bool stay_ = false;  ///< workers, for another render()
+    bool stay_ = false;              ///< workers, for another render()
+    std::atomic<bool> sent_{false};  ///< a first result (on_first_result)
     std::vector<std::unique_ptr<Channel>> channels_;
     std::vector<std::unique_ptr<FaultyChannel>> faulty_;
     std::vector<WorkerSettings> settings_;

@@ -107,45 +107,23 @@ TEST_F(FarmTest, AWorkerThatWasThoughtLostJoinsAgain) {
     EXPECT_TRUE(orderly_);
 }
 
-TEST_F(FarmTest, ACorruptResultCostsTheWorkerItsPlace) {
-    make_workers(2);
-    first_ = 0;
-    std::atomic<bool> sent = false;
-    renderers_[1] = make_patient(sent);
-    faulty_[0]->outgoing = [&](Bytes& bytes) {
-        if (is<Result>(bytes) && !sent.exchange(true)) bytes[bytes.size() / 2] ^= 0x10;
-        return true;
-    };
+TEST_F(FarmTest, ACorruptResultExcludesTheWorker) {
+    on_first_result([](Bytes& bytes) { bytes[bytes.size() / 2] ^= 0x10; });
     expect_truth(render());
     EXPECT_EQ(lost_, std::set<int>{1});
 }
 
-TEST_F(FarmTest, AResultThatLiesIsRefused) {
-    make_workers(2);
-    first_ = 0;
-    std::atomic<bool> sent = false;
-    renderers_[1] = make_patient(sent);
-    faulty_[0]->outgoing = [&](Bytes& bytes) {
-        if (!is<Result>(bytes) || sent.exchange(true)) return true;
-        auto result = std::get<Result>(decode(bytes));
+TEST_F(FarmTest, AForgedResultIsRefused) {
+    change_first_result([](Result& result) {
         ++result.units[0].unit.x0;  // work that it was not given
         ++result.units[0].unit.x1;
-        bytes = encode(result);
-        return true;
-    };
+    });
     expect_truth(render());
     EXPECT_EQ(lost_, std::set<int>{1});
 }
 
 TEST_F(FarmTest, AResultThatComesTwiceCountsOnce) {
-    make_workers(2);
-    first_ = 0;
-    std::atomic<bool> sent = false;
-    renderers_[1] = make_patient(sent);
-    faulty_[0]->outgoing = [&](Bytes& bytes) {
-        if (is<Result>(bytes) && !sent.exchange(true)) channels_[1]->send(0, std::make_shared<const Bytes>(bytes));
-        return true;
-    };
+    on_first_result([&](Bytes& bytes) { channels_[1]->send(0, std::make_shared<const Bytes>(bytes)); });
     expect_truth(render());
     EXPECT_EQ(lost_, std::set<int>{1});
 }

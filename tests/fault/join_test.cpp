@@ -129,12 +129,12 @@ TEST_F(JoinTest, TheOnlyWorkerMayDieWhereOthersMayJoin) {
     EXPECT_NE(guest_ends_.at(0), WorkerEnd::orphaned) << "it is sent away, in order if the barred one is heard in time";
 }
 
-TEST_F(JoinTest, OneThatLiesIsBarred) {
+TEST_F(JoinTest, OneThatSendsABadResultIsBarred) {
     open(1);
-    std::atomic<bool> lied = false;
-    renderers_[0] = make_patient(lied);
+    std::atomic<bool> sent_bad_result = false;
+    renderers_[0] = make_patient(sent_bad_result);
     start_guest([&](Bytes& bytes) {
-        if (!is<Result>(bytes) || lied.exchange(true)) return true;
+        if (!is<Result>(bytes) || sent_bad_result.exchange(true)) return true;
         auto result = std::get<Result>(decode(bytes));
         result.units[0].pixels[0].half[0].mean.x = -1;
         bytes = encode(result);

@@ -6,6 +6,7 @@
 #include "common/plan/resolve/resolved_file.h"
 #include "coordinator/checkpoint/checkpoint_store.h"
 #include "tests/fault/farm_fixture.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm::test {
 namespace {
@@ -14,13 +15,7 @@ namespace fs = std::filesystem;
 
 class Resume : public FarmTest {
   protected:
-    fs::path folder_ =
-        fs::path(::testing::TempDir()) / "resume" / ::testing::UnitTest::GetInstance()->current_test_info()->name();
-
-    void SetUp() override {
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
-    }
+    const fs::path folder_ = fresh_test_folder();
 
     /// Ends the render after so many passes, and writes the state.
     void stop_after(std::size_t passes) {
@@ -37,7 +32,7 @@ class Resume : public FarmTest {
     /// the first begins when that has got something to do.
     void stop_within(std::uint32_t pass, double share) {
         make_workers(2);
-        double in_hand = 0;
+        double in_progress = 0;
         std::array<std::atomic<bool>, 16> second_has{};
         faulty_[1]->incoming = [&second_has](Bytes& bytes) {
             if (!is<Work>(bytes)) return true;
@@ -57,9 +52,9 @@ class Resume : public FarmTest {
         };
         hooks_.on_progress = [&](const RenderProgress& progress) {
             const double before = truth().passes[pass].plan.first_sample, spp = truth().passes[pass].plan.spp;
-            if (progress.pass == pass) in_hand = (progress.fraction * progress.spp_total - before) / spp;
+            if (progress.pass == pass) in_progress = (progress.fraction * progress.spp_total - before) / spp;
         };
-        hooks_.interrupted = [&] { return in_hand > share + 1e-9; };
+        hooks_.interrupted = [&] { return in_progress > share + 1e-9; };
         hooks_.on_last_state = [&](RenderState state) { write(state); };
         EXPECT_TRUE(render({.gather = 20, .lost = 20, .dismiss = 1}).interrupted);
         hooks_ = {};
@@ -122,11 +117,11 @@ TEST_F(Resume, WithinAnyPassOnAnyFarmTheBitsAreThoseOfARenderThatNeverStopped) {
         for (const double share : {0.0, 0.3}) {
             stop_within(pass, share);
             const RenderState state = load().state;
-            ASSERT_TRUE(state.begun) << "pass " << pass;
+            ASSERT_TRUE(state.partial) << "pass " << pass;
             EXPECT_EQ(state.reports.size(), pass);
-            EXPECT_EQ(state.begun->plan.index, pass);
-            EXPECT_GT(state.begun->done.weight(), 0u);
-            EXPECT_LT(state.begun->done.weight(), std::uint64_t{kWidth} * kHeight * state.begun->plan.chunks);
+            EXPECT_EQ(state.partial->plan.index, pass);
+            EXPECT_GT(state.partial->done.weight(), 0u);
+            EXPECT_LT(state.partial->done.weight(), std::uint64_t{kWidth} * kHeight * state.partial->plan.chunks);
             job_.farm.tile_size = k % 2 == 0 ? 32 : 5;
             expect_truth(go_on(1 + k % 5, 1 + static_cast<std::uint32_t>(k % 3)));
             faulty_.clear();
@@ -139,10 +134,10 @@ TEST_F(Resume, ManyTimesWithinOnePass) {
     const auto last = static_cast<std::uint32_t>(truth().passes.size() - 1);
     stop_within(last, 0.0);
     for (const double share : {0.2, 0.4, 0.6}) {
-        const std::uint64_t before = load().state.begun->done.weight();
+        const std::uint64_t before = load().state.partial->done.weight();
         resumed_ = load().state;
         stop_within(last, share);
-        EXPECT_GE(load().state.begun->done.weight(), before) << "nothing is traced twice";
+        EXPECT_GE(load().state.partial->done.weight(), before) << "nothing is traced twice";
     }
     expect_truth(go_on(3, 1));
 }
@@ -152,7 +147,7 @@ TEST_F(Resume, CheckpointsWithinAPassAreMadeWhileItGoesOn) {
     std::vector<RenderState> states;
     hooks_.state_due = [&] { return true; };
     hooks_.on_state = [&](RenderState& state) {
-        if (state.begun && state.begun->plan.index >= 2 && states.size() < 5) states.push_back(state);
+        if (state.partial && state.partial->plan.index >= 2 && states.size() < 5) states.push_back(state);
     };
     expect_truth(render());
     ASSERT_FALSE(states.empty());
@@ -167,12 +162,12 @@ TEST_F(Resume, CheckpointsWithinAPassAreMadeWhileItGoesOn) {
 TEST_F(Resume, ACheckpointWithinAPassSaysMoreThanTheOneBefore) {
     const auto last = static_cast<std::uint32_t>(truth().passes.size() - 1);
     stop_within(last, 0.4);
-    std::uint64_t before = load().state.begun->done.weight();
+    std::uint64_t before = load().state.partial->done.weight();
     hooks_.state_due = [] { return true; };
     hooks_.on_state = [&](RenderState& state) {
-        if (!state.begun) return;
-        EXPECT_GT(state.begun->done.weight(), before);
-        before = state.begun->done.weight();
+        if (!state.partial) return;
+        EXPECT_GT(state.partial->done.weight(), before);
+        before = state.partial->done.weight();
     };
     expect_truth(go_on(2, 1));
 }
@@ -180,12 +175,12 @@ TEST_F(Resume, ACheckpointWithinAPassSaysMoreThanTheOneBefore) {
 TEST_F(Resume, WhatCannotBeUsedOfAPassIsTracedAgain) {
     stop_within(2, 0.0);
     RenderState state = load().state;
-    state.begun->film.pop_back();
+    state.partial->film.pop_back();
     write(state);
     expect_truth(go_on(2, 1));
 }
 
-TEST_F(Resume, APassInHandIsFinishedAsItWasBegunWhateverTheNewBudget) {
+TEST_F(Resume, APartialPassIsFinishedAsItWasBegunWhateverTheNewBudget) {
     const auto last = static_cast<std::uint32_t>(truth().passes.size() - 1);
     stop_within(last, 0.0);
     job_.budget.spp = 300;

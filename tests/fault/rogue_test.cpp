@@ -12,33 +12,23 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-struct Lie {
+struct BadResult {
     const char* name;
     std::function<void(Result&)> tell;
 };
 
-std::ostream& operator<<(std::ostream& out, const Lie& lie) {
-    return out << lie.name;
+std::ostream& operator<<(std::ostream& out, const BadResult& bad) {
+    return out << bad.name;
 }
 
 Moments& moments(Result& r) {
     return r.units.back().pixels.back().half[0];
 }
 
-class ResultThatCannotBe : public FarmTest, public ::testing::WithParamInterface<Lie> {};
+class ResultThatCannotBe : public FarmTest, public ::testing::WithParamInterface<BadResult> {};
 
-TEST_P(ResultThatCannotBe, CostsTheWorkerItsPlaceAndIsCounted) {
-    make_workers(2);
-    first_ = 0;
-    std::atomic<bool> sent = false;
-    renderers_[1] = make_patient(sent);
-    faulty_[0]->outgoing = [&](Bytes& bytes) {
-        if (!is<Result>(bytes) || sent.exchange(true)) return true;
-        auto result = std::get<Result>(decode(bytes));
-        GetParam().tell(result);
-        bytes = encode(result);
-        return true;
-    };
+TEST_P(ResultThatCannotBe, ExcludesTheWorkerAndIsCounted) {
+    change_first_result(GetParam().tell);
     expect_truth(render());
     EXPECT_EQ(lost_, std::set<int>{1});
     EXPECT_EQ(bad_messages_, 1u);
@@ -47,61 +37,61 @@ TEST_P(ResultThatCannotBe, CostsTheWorkerItsPlaceAndIsCounted) {
 INSTANTIATE_TEST_SUITE_P(
     Lies, ResultThatCannotBe,
     ::testing::Values(
-        Lie{"a mean that is no number", [](Result& r) { moments(r).mean.x = kNan; }},
-        Lie{"an infinite mean", [](Result& r) { moments(r).mean.y = kInfinity; }},
-        Lie{"a negative mean", [](Result& r) { moments(r).mean.z = -1e-6; }},
-        Lie{"deviations that are no number", [](Result& r) { moments(r).m2.y = kNan; }},
-        Lie{"negative deviations", [](Result& r) { moments(r).m2.x = -1; }},
-        Lie{"samples in the wrong half",
-            [](Result& r) {
-                for (auto* pixels : {&r.units[0].pixels, &r.units[0].aovs.direct})
-                    for (PixelEstimate& pixel : *pixels) {
-                        pixel.half[0].n += pixel.half[1].n;
-                        pixel.half[1].n = 0;
-                    }
-            }},
-        Lie{"an AOV that is no number", [](Result& r) { r.units.back().aovs.values.back() = kNan; }},
-        Lie{"an AOV less", [](Result& r) { r.units.back().aovs.values.pop_back(); }},
-        Lie{"no direct light", [](Result& r) { r.units[0].aovs.direct.clear(); }},
-        Lie{"infinite direct light", [](Result& r) { r.units[0].aovs.direct[0].half[1].mean.x = kInfinity; }},
-        Lie{"seconds that are no number", [](Result& r) { r.stats.trace_seconds = kNan; }},
-        Lie{"negative seconds", [](Result& r) { r.stats.splat_seconds = -1; }},
-        Lie{"endless seconds", [](Result& r) { r.stats.phase_seconds[2] = kInfinity; }},
-        Lie{"more paths than were asked for", [](Result& r) { ++r.stats.paths; }},
-        Lie{"more paths with light than paths", [](Result& r) { r.stats.nonzero_paths = r.stats.paths + 1; }},
-        Lie{"an invalid sample outside the film",
-            [](Result& r) {
-                r.stats.first_invalid.push_back({r.pass, 60000, 0, 0, {0, 0, 0}});
-            }},
-        Lie{"thousands of invalid samples",
-            [](Result& r) {
-                r.stats.first_invalid.resize(5000, {r.pass, 0, 0, 0, {0, 0, 0}});
-            }},
-        Lie{"noise that is no number",
-            [](Result& r) {
-                r.stats.tails.worst = {{kNan, r.pass, 0, 0, 0, {}}};
-            }},
-        Lie{"no noise",
-            [](Result& r) {
-                r.stats.tails.worst = {{0, r.pass, 0, 0, 0, {}}};
-            }},
-        Lie{"a noisy sample outside the film",
-            [](Result& r) {
-                r.stats.tails.worst = {{1, r.pass, 0, 60000, 0, {}}};
-            }},
-        Lie{"a noisy sample of another pass",
-            [](Result& r) {
-                r.stats.tails.worst = {{1, r.pass + 1, 0, 0, 0, {}}};
-            }},
-        Lie{"noisy samples in disorder",
-            [](Result& r) {
-                r.stats.tails.worst = {{1, r.pass, 0, 0, 0, {}}, {2, r.pass, 0, 0, 0, {}}};
-            }},
-        Lie{"too many noisy samples",
-            [](Result& r) {
-                r.stats.tails.worst.assign(9, {1, r.pass, 0, 0, 0, {}});
-            }},
-        Lie{"work of another pass", [](Result& r) { r.pass += 1; }}),
+        BadResult{"a mean that is no number", [](Result& r) { moments(r).mean.x = kNan; }},
+        BadResult{"an infinite mean", [](Result& r) { moments(r).mean.y = kInfinity; }},
+        BadResult{"a negative mean", [](Result& r) { moments(r).mean.z = -1e-6; }},
+        BadResult{"deviations that are no number", [](Result& r) { moments(r).m2.y = kNan; }},
+        BadResult{"negative deviations", [](Result& r) { moments(r).m2.x = -1; }},
+        BadResult{"samples in the wrong half",
+                  [](Result& r) {
+                      for (auto* pixels : {&r.units[0].pixels, &r.units[0].aovs.direct})
+                          for (PixelEstimate& pixel : *pixels) {
+                              pixel.half[0].n += pixel.half[1].n;
+                              pixel.half[1].n = 0;
+                          }
+                  }},
+        BadResult{"an AOV that is no number", [](Result& r) { r.units.back().aovs.values.back() = kNan; }},
+        BadResult{"an AOV less", [](Result& r) { r.units.back().aovs.values.pop_back(); }},
+        BadResult{"no direct light", [](Result& r) { r.units[0].aovs.direct.clear(); }},
+        BadResult{"infinite direct light", [](Result& r) { r.units[0].aovs.direct[0].half[1].mean.x = kInfinity; }},
+        BadResult{"seconds that are no number", [](Result& r) { r.stats.trace_seconds = kNan; }},
+        BadResult{"negative seconds", [](Result& r) { r.stats.splat_seconds = -1; }},
+        BadResult{"endless seconds", [](Result& r) { r.stats.phase_seconds[2] = kInfinity; }},
+        BadResult{"more paths than were asked for", [](Result& r) { ++r.stats.paths; }},
+        BadResult{"more paths with light than paths", [](Result& r) { r.stats.nonzero_paths = r.stats.paths + 1; }},
+        BadResult{"an invalid sample outside the film",
+                  [](Result& r) {
+                      r.stats.first_invalid.push_back({r.pass, 60000, 0, 0, {0, 0, 0}});
+                  }},
+        BadResult{"thousands of invalid samples",
+                  [](Result& r) {
+                      r.stats.first_invalid.resize(5000, {r.pass, 0, 0, 0, {0, 0, 0}});
+                  }},
+        BadResult{"noise that is no number",
+                  [](Result& r) {
+                      r.stats.tails.worst = {{kNan, r.pass, 0, 0, 0, {}}};
+                  }},
+        BadResult{"no noise",
+                  [](Result& r) {
+                      r.stats.tails.worst = {{0, r.pass, 0, 0, 0, {}}};
+                  }},
+        BadResult{"a noisy sample outside the film",
+                  [](Result& r) {
+                      r.stats.tails.worst = {{1, r.pass, 0, 60000, 0, {}}};
+                  }},
+        BadResult{"a noisy sample of another pass",
+                  [](Result& r) {
+                      r.stats.tails.worst = {{1, r.pass + 1, 0, 0, 0, {}}};
+                  }},
+        BadResult{"noisy samples in disorder",
+                  [](Result& r) {
+                      r.stats.tails.worst = {{1, r.pass, 0, 0, 0, {}}, {2, r.pass, 0, 0, 0, {}}};
+                  }},
+        BadResult{"too many noisy samples",
+                  [](Result& r) {
+                      r.stats.tails.worst.assign(9, {1, r.pass, 0, 0, 0, {}});
+                  }},
+        BadResult{"work of another pass", [](Result& r) { r.pass += 1; }}),
     [](const auto& info) { return "Lie" + std::to_string(info.index); });
 
 /// Messages that a rogue may send to anybody at any time: well-formed, and none of its business.
@@ -139,7 +129,7 @@ TEST_F(FarmTest, WorkersTakeOrdersFromTheCoordinatorAlone) {
         EXPECT_EQ(end, WorkerEnd::orderly);
 }
 
-TEST_F(FarmTest, OrdersToTheCoordinatorCostTheirSenderItsPlace) {
+TEST_F(FarmTest, OrdersToTheCoordinatorExcludeTheirSender) {
     for (const Bytes& order : orders()) {
         channels_.clear();
         faulty_.clear();

@@ -4,23 +4,16 @@
 #include <filesystem>
 #include <fstream>
 #include <random>
-#include <sstream>
 
 #include "common/config/job_reader.h"
 #include "common/scene/pack/scene_codec.h"
 #include "coordinator/input/load.h"
 #include "coordinator/input/meshes/obj_file.h"
 #include "tests/support/support.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
-
-std::string text_of(const std::filesystem::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
-}
 
 /// Damages a text in one of the ways in which files go wrong. The same seed damages it the same way.
 std::string mutate(std::string text, std::mt19937& random) {
@@ -83,7 +76,7 @@ std::filesystem::path folder() {
 
 TEST(SceneMutation, Scenes) {
     for (const char* name : {"cornell-box.xml", "door-ajar.xml", "white-furnace.xml"})
-        expect_read_or_refused(text_of(test::own_scene(name)), folder() / name, 250,
+        expect_read_or_refused(test::read_file(test::own_scene(name)), folder() / name, 250,
                                [](const std::filesystem::path& path) {
                                    for (const bool lenient : {true, false}) {
                                        const Bytes bytes = encode_scene(load_scene(path, {}, lenient).scene);

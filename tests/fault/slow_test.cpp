@@ -49,7 +49,7 @@ TEST_F(FarmTest, ASlowWorkerCostsTimeNotBits) {
 }
 
 /// Whoever traces the pixel 0,0 of the second pass falls silent for ever.
-struct Deadly : FarmTest {
+struct PoisonUnits : FarmTest {
     void make_mortal(int count) {
         make_workers(count);
         for (std::size_t w = 0; w < faulty_.size(); ++w) {
@@ -70,7 +70,7 @@ struct Deadly : FarmTest {
     }
 };
 
-TEST_F(Deadly, AUnitThatKillsThreeWorkersEndsTheRenderByItsName) {
+TEST_F(PoisonUnits, AUnitThatKillsThreeWorkersEndsTheRenderByItsName) {
     make_mortal(5);
     const std::string why = death({.gather = 20, .lost = 0.3, .dismiss = 0.5, .grace = 1});
     EXPECT_NE(why.find("3 workers were lost over the pixels from 0,0 to below "), std::string::npos) << why;
@@ -79,7 +79,7 @@ TEST_F(Deadly, AUnitThatKillsThreeWorkersEndsTheRenderByItsName) {
         << why;
 }
 
-TEST_F(Deadly, IsNamedWhereNobodyIsLeft) {
+TEST_F(PoisonUnits, IsNamedWhereNobodyIsLeft) {
     make_mortal(2);
     const std::string why = death({.gather = 20, .lost = 0.3, .dismiss = 0.5, .grace = 0.5});
     EXPECT_NE(why.find("no worker is left: 2 were lost over the pixels from 0,0"), std::string::npos) << why;

@@ -33,18 +33,18 @@ RenderState small_state() {
     report.plan.spp = 4;
     report.seconds.worker = {{1, 0.5}, {2, 0.25}};
     report.stats.first_invalid.push_back({});
-    report.stats.tails.add({2.5f, 0, 1, 0, 3, {LightFound::sampled, LightWay::mirror, 4}});
+    report.stats.tails.add({2.5f, 0, 1, 0, 3, {LightFound::sampled, PathClass::mirror, 4}});
     state.reports.push_back(report);
-    BegunPass begun;
-    begun.plan.index = 1;
-    begun.plan.spp = 8;
-    begun.plan.units.light_paths = 2;
-    begun.done = DoneWork(3, 2, 1);
-    begun.done.add({1, 0, 0, 2, 1, 0});
-    begun.done.add({.pass = 1, .kind = UnitKind::light_paths, .first = 3, .count = 4});
-    begun.deadly = {{{1, 2, 1, 3, 2, 0}, 1}};
-    begun.film.resize(2 * kEstimateBytes);
-    state.begun = begun;
+    PartialPass partial;
+    partial.plan.index = 1;
+    partial.plan.spp = 8;
+    partial.plan.units.light_paths = 2;
+    partial.done = DoneWork(3, 2, 1);
+    partial.done.add({1, 0, 0, 2, 1, 0});
+    partial.done.add({.pass = 1, .kind = UnitKind::light_paths, .first = 3, .count = 4});
+    partial.poison_units = {{{1, 2, 1, 3, 2, 0}, 1}};
+    partial.film.resize(2 * kEstimateBytes);
+    state.partial = partial;
     return state;
 }
 

@@ -45,9 +45,9 @@ Bytes framed(const JoinKey& key, std::uint64_t sequence, std::span<const std::ui
 
 /// Who repeats what an honest guest said gets no farther: the nonce is another.
 void knock(std::span<const std::uint8_t> bytes) {
-    DoorHandshake door(ticket(), kBuild, key_of(5));
-    feed(bytes, [&](std::span<const std::uint8_t> piece) { door.take(piece); });
-    if (door.is_admitted()) std::abort();
+    ListenerHandshake listener(ticket(), kBuild, key_of(5));
+    feed(bytes, [&](std::span<const std::uint8_t> piece) { listener.take(piece); });
+    if (listener.is_admitted()) std::abort();
 }
 
 void answer(std::span<const std::uint8_t> bytes) {
@@ -114,7 +114,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 std::vector<std::string> fuzz::seeds() {
     GuestHandshake guest(ticket(), kBuild, key_of(6));
-    DoorHandshake other(ticket(), kBuild, key_of(4));  // not the nonce of the one that is fuzzed
+    ListenerHandshake other(ticket(), kBuild, key_of(4));  // not the nonce of the one that is fuzzed
     const Bytes& hello = guest.hello();
     other.take(hello);
     const Bytes answer = other.take_answer();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/fuzz/message_script.h"
 
-#include <cmath>
 #include <limits>
 
 namespace treefarm::fuzz {
@@ -103,7 +102,7 @@ Result any_result(Script& script, const Known& known) {
                                  static_cast<std::uint16_t>(script.below(9)),
                                  0,
                                  script.below(4),
-                                 {static_cast<LightFound>(script.below(5)), LightWay::diffuse, 1}});
+                                 {static_cast<LightFound>(script.below(5)), PathClass::diffuse, 1}});
     s.paths = std::numeric_limits<std::uint64_t>::max();  // what can be seen to be wrong
     return result;
 }

@@ -5,10 +5,8 @@
 
 #include "common/config/job_reader.h"
 #include "common/image/exr.h"
-#include "common/metrics/error_metrics.h"
-#include "common/metrics/z_test.h"
 #include "coordinator/input/load.h"
-#include "tests/support/local_render.h"
+#include "tests/support/rendered.h"
 
 namespace treefarm {
 namespace {
@@ -57,24 +55,9 @@ TEST_P(OwnReference, AgreesInTheZTests) {
     job.integrator.next_event = NextEvent::always;
     job.guiding.type = GetParam().guiding;
     job.guiding.combination = Combination::fixed;
-    const test::LocalRender run = test::render_locally(loaded.scene, job);
-
-    RgbImage mean(file.width, file.height), variance = mean;
-    for (std::size_t p = 0; p < mean.pixels.size(); ++p) {
-        mean.pixels[p] = Rgb(run.image.mean[p]);
-        variance.pixels[p] = Rgb(run.image.variance[p]);
-    }
+    const test::Rendered own = test::rendered(test::render_locally(loaded.scene, job), loaded.scene.film);
     const RgbImage reference = layer_of(file, ""), reference_variance = layer_of(file, "variance.");
-    ZTestOptions options;
-    options.block = 8;
-    const ZTestInput input{mean, reference, &variance, &reference_variance};
-    const BlockZTest blocks = block_z_test(input, options);
-    const PixelZTest pixels = pixel_z_test(input, options);
-    EXPECT_TRUE(blocks.pass) << "worst block z " << blocks.max_abs_z << " of " << blocks.limit;
-    EXPECT_LT(blocks.mean_z2, 2.0);
-    EXPECT_TRUE(pixels.pass) << pixels.accepted << " of " << pixels.tests;
-    for (const double z : blocks.image_z)
-        EXPECT_LT(std::abs(z), 4.0);
+    test::expect_z_tests_pass({own.mean, reference, &own.variance, &reference_variance});
 }
 
 std::vector<Case> cases() {

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
-#include <cstdlib>
 
-#include "common/base/hash.h"
-#include "common/base/timer.h"
 #include "common/comm/mpi_channel.h"
 
 // Runs under mpirun, started by channel_test: every worker sends the coordinator messages of many sizes, some of

@@ -176,10 +176,10 @@ TEST(Ending, AFireflyIsNamedAndCanBeSeen) {
             .wait(kSoon);
     EXPECT_EQ(seen.code, 0) << seen.output;
     const nlohmann::json worst = nlohmann::json::parse(std::ifstream(folder / "summary.json"))["tail_worst"][0];
-    std::ostringstream place;
-    place << "pass " << worst["pass"] << " pixel (" << worst["x"] << ", " << worst["y"] << ") sample "
-          << worst["sample"];
-    EXPECT_TRUE(seen.output.starts_with(place.str())) << place.str() << "\n" << seen.output;
+    std::ostringstream location;
+    location << "pass " << worst["pass"] << " pixel (" << worst["x"] << ", " << worst["y"] << ") sample "
+             << worst["sample"];
+    EXPECT_TRUE(seen.output.starts_with(location.str())) << location.str() << "\n" << seen.output;
     EXPECT_NE(ending.output.find(worst["origin"].get<std::string>()), std::string::npos);
 }
 

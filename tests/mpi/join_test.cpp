@@ -7,8 +7,8 @@
 #include <random>
 
 #include "common/comm/join_ticket.h"
+#include "common/runs/run_files.h"
 #include "tests/mpi/program.h"
-#include "tests/support/support.h"
 
 namespace treefarm::test {
 namespace {

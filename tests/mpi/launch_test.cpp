@@ -8,11 +8,11 @@
 #include <fstream>
 #include <iterator>
 #include <set>
-#include <sstream>
 #include <thread>
 
 #include "tests/mpi/program.h"
 #include "tests/support/support.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm::test {
 namespace {
@@ -53,15 +53,6 @@ const RunHashes& never_stopped() {
     return truth;
 }
 
-std::string text_of(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-bool has_checkpoint(const fs::path& folder) {
-    return fs::exists(folder / "checkpoint" / "a.tfc") || fs::exists(folder / "checkpoint" / "b.tfc");
-}
-
 /// A process that an attempt of the launch of this folder has started.
 struct Started {
     pid_t pid = 0;
@@ -75,10 +66,10 @@ std::vector<Started> started(const fs::path& folder) {
     for (const auto& entry : fs::directory_iterator("/proc")) {
         const std::string name = entry.path().filename().string();
         if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-        const std::string variables = '\0' + text_of(entry.path() / "environ");
+        const std::string variables = '\0' + read_file(entry.path() / "environ");
         const std::size_t at = variables.find(std::string(1, '\0') + "TREEFARM_ATTEMPT=");
         if (at == std::string::npos || variables.find(wanted + '\0', at) == std::string::npos) continue;
-        Started process{std::stoi(name), text_of(entry.path() / "cmdline"), -1};
+        Started process{std::stoi(name), read_file(entry.path() / "cmdline"), -1};
         for (char& c : process.command)
             if (c == '\0') c = ' ';
         const std::string rank = std::string(1, '\0') + "OMPI_COMM_WORLD_RANK=";
@@ -123,7 +114,7 @@ TEST(Launch, ACalmRenderIsThePlainOne) {
         EXPECT_EQ(hashes_of(folder), never_stopped());
         EXPECT_TRUE(read_summary(folder)["attempt"].get<std::string>().ends_with(".1"));
         EXPECT_NE(ending.output.find("pass 8/8"), std::string::npos) << "what the render says is relayed";
-        EXPECT_NE(text_of(folder / "launch/log").find("attempt 1: "), std::string::npos);
+        EXPECT_NE(read_file(folder / "launch/log").find("attempt 1: "), std::string::npos);
         expect_nothing_left(folder);
     }
 }
@@ -281,7 +272,7 @@ TEST(Launch, WhatAlwaysDiesEndsWithOneLineThatSaysWhatToDo) {
                                  mpirun.string() + " --restarts 2 -- render "),
               std::string::npos)
         << ending.output;
-    EXPECT_NE(text_of(folder / "launch/log").find("launcher: exit code 7"), std::string::npos);
+    EXPECT_NE(read_file(folder / "launch/log").find("launcher: exit code 7"), std::string::npos);
     expect_nothing_left(folder);
 }
 
@@ -304,7 +295,7 @@ TEST(Launch, ItsProcessesShareASecretWhereTheyAllSeeIt) {
     EXPECT_EQ(hashes_of(other), never_stopped());
 }
 
-TEST(Launch, DeathsAtOnePlaceNameIt) {
+TEST(Launch, DeathsAtOneStageNameIt) {
     const fs::path folder = fresh_folder("run");
     Program begun(plain(folder, kEndless));
     ASSERT_TRUE(begun.wait_until([&] { return passes_done(folder) >= 9; }, kSoon));  // the next one takes seconds
@@ -314,7 +305,7 @@ TEST(Launch, DeathsAtOnePlaceNameIt) {
                                                       "1",      "--set",         "farm.checkpoint_seconds=3600"};
     Program program(launch(1, {"--restarts", "1"}) + keeping_nothing);
     for (std::uint64_t dead = 0; program.running(); std::this_thread::sleep_for(std::chrono::milliseconds(50))) {
-        const nlohmann::json life = nlohmann::json::parse(text_of(folder / "launch/status.json"), nullptr, false);
+        const nlohmann::json life = nlohmann::json::parse(read_file(folder / "launch/status.json"), nullptr, false);
         if (!life.is_object() || life["phase"] != "pass" || life["pid"] == dead) continue;
         dead = life["pid"];
         kill(static_cast<pid_t>(dead), SIGKILL);

@@ -10,22 +10,16 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <sstream>
 #include <thread>
 
+#include "common/image/exr.h"
 #include "tests/support/support.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm::test {
 
 namespace {
-
-std::string read_text(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
 
 std::vector<std::string> environment() {
     std::vector<std::string> variables;
@@ -107,16 +101,16 @@ Ending Program::wait(double seconds) {
         }
     }
     ending.code = WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
-    ending.output = read_text(output_);
+    ending.output = read_file(output_);
     return ending;
 }
 
 pid_t Program::rank(int number) const {
     const std::string process = std::to_string(pid_);
-    std::istringstream children(read_text("/proc/" + process + "/task/" + process + "/children"));
+    std::istringstream children(read_file("/proc/" + process + "/task/" + process + "/children"));
     const std::string wanted = "OMPI_COMM_WORLD_RANK=" + std::to_string(number);
     for (pid_t child = 0; children >> child;) {
-        const std::string variables = '\0' + read_text("/proc/" + std::to_string(child) + "/environ");
+        const std::string variables = '\0' + read_file("/proc/" + std::to_string(child) + "/environ");
         if (variables.find('\0' + wanted + '\0') != std::string::npos) return child;
     }
     return 0;
@@ -166,7 +160,7 @@ nlohmann::json read_summary(const std::filesystem::path& run_directory) {
         ADD_FAILURE() << "no " << path;
         return {{"state", "missing"}};
     }
-    return nlohmann::json::parse(read_text(path));
+    return nlohmann::json::parse(read_file(path));
 }
 
 std::ostream& operator<<(std::ostream& out, const RunHashes& hashes) {
@@ -179,8 +173,17 @@ RunHashes hashes_of(const std::filesystem::path& run_directory) {
     return {summary["image_hash"], summary["tree_hash"]};
 }
 
+bool has_checkpoint(const std::filesystem::path& run_directory) {
+    return std::filesystem::exists(run_directory / "checkpoint/a.tfc") ||
+           std::filesystem::exists(run_directory / "checkpoint/b.tfc");
+}
+
+std::string spp_of(const std::filesystem::path& image) {
+    return std::filesystem::exists(image) ? read_exr(image).attributes.at("treefarm.spp") : "none";
+}
+
 int passes_done(const std::filesystem::path& run_directory) {
-    const std::string text = read_text(run_directory / "passes.csv");
+    const std::string text = read_file(run_directory / "passes.csv");
     return static_cast<int>(std::count(text.begin(), text.end(), '\n')) - (text.empty() ? 0 : 1);
 }
 

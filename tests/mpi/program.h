@@ -71,6 +71,11 @@ std::ostream& operator<<(std::ostream& out, const RunHashes& hashes);
 /// Hashes of a render, which is expected to be done.
 RunHashes hashes_of(const std::filesystem::path& run_directory);
 
+bool has_checkpoint(const std::filesystem::path& run_directory);
+
+/// Samples per pixel that an image says it has; "none" if there is no image.
+std::string spp_of(const std::filesystem::path& image);
+
 /// Lines of passes.csv without the header; 0 if it is not there.
 int passes_done(const std::filesystem::path& run_directory);
 

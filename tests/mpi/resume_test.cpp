@@ -11,6 +11,7 @@
 
 #include "tests/mpi/program.h"
 #include "tests/support/support.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm::test {
 namespace {
@@ -44,10 +45,6 @@ const RunHashes& never_stopped() {
         return hashes_of(folder);
     }();
     return truth;
-}
-
-bool has_checkpoint(const fs::path& folder) {
-    return fs::exists(folder / "checkpoint" / "a.tfc") || fs::exists(folder / "checkpoint" / "b.tfc");
 }
 
 /// Starts a render on so many ranks, and kills all of it with SIGKILL once it has a checkpoint and some time has
@@ -113,7 +110,7 @@ const RunHashes& one_pass() {
 }
 
 /// Whether one of the checkpoints is of a pass in hand.
-bool has_begun_pass(const fs::path& folder) {
+bool has_partial_pass(const fs::path& folder) {
     for (const char* name : {"a.tfc", "b.tfc"}) {
         std::ifstream file(folder / "checkpoint" / name, std::ios::binary);
         if ((std::stringstream() << file.rdbuf()).str().find("OPEN") != std::string::npos) return true;
@@ -125,7 +122,7 @@ TEST(Resume, AProgramThatIsKilledWithinAPassGoesOnWithinIt) {
     const RunHashes& truth = one_pass();
     const fs::path folder = fresh_folder("run");
     Program program(render(folder, kOnePass));
-    ASSERT_TRUE(program.wait_until([&] { return has_begun_pass(folder); }, kSoon));
+    ASSERT_TRUE(program.wait_until([&] { return has_partial_pass(folder); }, kSoon));
     program.signal(SIGKILL);
     program.wait(kSoon);
     ASSERT_FALSE(fs::exists(folder / "summary.json"));
@@ -139,7 +136,7 @@ TEST(Resume, AProgramThatIsInterruptedWithinItsFirstPassKeepsWhatItHas) {
     const RunHashes& truth = one_pass();
     const fs::path folder = fresh_folder("run");
     Program program(render(folder, kOnePass));
-    ASSERT_TRUE(program.wait_until([&] { return has_begun_pass(folder); }, kSoon));
+    ASSERT_TRUE(program.wait_until([&] { return has_partial_pass(folder); }, kSoon));
     program.signal(SIGINT);
     const Ending ending = program.wait(kSoon);
     EXPECT_EQ(ending.code, 3) << ending.output;
@@ -249,7 +246,7 @@ TEST(Resume, ASceneThatHasChangedIsRefused) {
     std::vector<std::string> command = render(folder);
     command[2] = scene.string();
     kill_after(command, 1, folder, 0.0);
-    std::string text = (std::stringstream() << std::ifstream(scene).rdbuf()).str();
+    std::string text = read_file(scene);
     const std::size_t at = text.find("reflectance\" value=\"0.");
     ASSERT_NE(at, std::string::npos);
     text.replace(text.find("0.", at), 3, "0.5");

@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <fstream>
-#include <sstream>
 
 #include "common/image/exr.h"
 #include "tests/mpi/program.h"
 #include "tests/support/read_ldr.h"
 #include "tests/support/support.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm::test {
 namespace {
@@ -25,17 +25,6 @@ constexpr char kForever[] = "1000000";
 nlohmann::json read_json(const fs::path& path) {
     std::ifstream file(path);
     return nlohmann::json::parse(file, nullptr, false);
-}
-
-std::string read_text(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
-
-std::string spp_of(const fs::path& image) {
-    return fs::exists(image) ? read_exr(image).attributes.at("treefarm.spp") : "none";
 }
 
 /// A disk of so many KiB below a fresh folder; not there where mounting is not permitted.
@@ -97,7 +86,7 @@ TEST(RunDirectory, ADiskThatStaysFullKeepsWhatFits) {
     const std::string kept = spp_of(folder / "image.exr");
     ASSERT_NE(kept, "none");
     ASSERT_TRUE(
-        program.wait_until([&] { return read_text(program.output()).find("goes on") != std::string::npos; }, kSoon))
+        program.wait_until([&] { return read_file(program.output()).find("goes on") != std::string::npos; }, kSoon))
         << "the trouble is told";
     program.signal(SIGINT);
     const Ending ending = program.wait(kSoon);
@@ -193,9 +182,9 @@ TEST(RunDirectory, AReaderThatClosesEndsNothing) {
     const Ending ending =
         Program(Words{"bash", "-c", command + "; echo $? > '" + folder.string() + "-code') 2>&1 | true"}).wait(kSoon);
     EXPECT_EQ(ending.code, 0);
-    EXPECT_EQ(read_text(folder.string() + "-code"), "0\n");
+    EXPECT_EQ(read_file(folder.string() + "-code"), "0\n");
     EXPECT_EQ(read_summary(folder)["state"], "done");
-    EXPECT_NE(read_text(folder / "log.txt").find("7 spp in"), std::string::npos) << "the log goes on";
+    EXPECT_NE(read_file(folder / "log.txt").find("7 spp in"), std::string::npos) << "the log goes on";
 }
 
 TEST(RunDirectory, NohupKeepsARenderAlive) {
@@ -222,7 +211,7 @@ TEST(RunDirectory, NamesThatAreNoUtf8DoNoHarm) {
     EXPECT_EQ(read_summary(folder)["state"], "done");
     EXPECT_EQ(read_json(folder / "status.json")["state"], "done");
     EXPECT_FALSE(read_json(folder / "plan.json").is_discarded());
-    EXPECT_EQ(read_text(folder / "log.txt").find('\x1b'), std::string::npos);
+    EXPECT_EQ(read_file(folder / "log.txt").find('\x1b'), std::string::npos);
     EXPECT_EQ(ending.output.find('\x1b'), std::string::npos) << ending.output;
 }
 

@@ -4,11 +4,11 @@
 #include <signal.h>
 
 #include <fstream>
-#include <sstream>
 
 #include "common/image/exr.h"
 #include "tests/mpi/program.h"
 #include "tests/support/support.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm::test {
 namespace {
@@ -19,26 +19,15 @@ using Words = std::vector<std::string>;
 constexpr double kSoon = 120;  ///< seconds; what is meant is "not never"
 constexpr char kForever[] = "1000000";
 
-std::string read_text(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
-
-std::string spp_of(const fs::path& image) {
-    return fs::exists(image) ? read_exr(image).attributes.at("treefarm.spp") : "none";
-}
-
 TEST(RunFolder, ARenderIsNotReplacedInSilence) {
     const auto folder = fresh_folder("run");
     ASSERT_EQ(Program(small_render(folder, "7")).wait(kSoon).code, 0);
-    const std::string image = read_text(folder / "image.exr");
+    const std::string image = read_file(folder / "image.exr");
     const Ending refused = Program(small_render(folder, "3")).wait(kSoon);
     EXPECT_EQ(refused.code, 2) << refused.output;
     EXPECT_NE(refused.output.find("holds a render (done, 7 spp)"), std::string::npos) << refused.output;
     EXPECT_NE(refused.output.find("--overwrite"), std::string::npos) << refused.output;
-    EXPECT_EQ(read_text(folder / "image.exr"), image);
+    EXPECT_EQ(read_file(folder / "image.exr"), image);
 
     Program broken(small_render(folder, kForever, {"--overwrite", "--set", "guiding.spp_unit=65536"}));
     ASSERT_TRUE(broken.wait_until([&] { return fs::exists(folder / "previous" / "image.exr"); }, kSoon));
@@ -46,7 +35,7 @@ TEST(RunFolder, ARenderIsNotReplacedInSilence) {
     const Ending ending = broken.wait(kSoon);
     EXPECT_EQ(ending.code, 3) << ending.output;
     EXPECT_NE(ending.output.find("previous"), std::string::npos) << "says where the earlier run is";
-    EXPECT_EQ(read_text(folder / "previous" / "image.exr"), image);
+    EXPECT_EQ(read_file(folder / "previous" / "image.exr"), image);
     EXPECT_FALSE(fs::exists(folder / "image.exr")) << "no image of another run beside this one's log";
 
     ASSERT_EQ(Program(small_render(folder, "3", {"--overwrite"})).wait(kSoon).code, 0);
@@ -59,12 +48,12 @@ TEST(RunFolder, IsOneRendersAtATime) {
     const auto folder = fresh_folder("run");
     Program first(small_render(folder, kForever));
     ASSERT_TRUE(first.wait_until([&] { return passes_done(folder) >= 1; }, kSoon));
-    const std::string job = read_text(folder / "job.toml");
+    const std::string job = read_file(folder / "job.toml");
     const Ending second = Program(small_render(folder, "7", {"--overwrite", "--set", "sampler.seed=2"})).wait(kSoon);
     EXPECT_EQ(second.code, 2) << second.output;
     EXPECT_NE(second.output.find("at work in this folder (process " + std::to_string(first.pid())), std::string::npos)
         << second.output;
-    EXPECT_EQ(read_text(folder / "job.toml"), job);
+    EXPECT_EQ(read_file(folder / "job.toml"), job);
     first.signal(SIGINT);
     EXPECT_EQ(first.wait(kSoon).code, 3);
 }
@@ -76,10 +65,10 @@ TEST(RunFolder, ItsJobRepeatsTheRunElsewhere) {
     const Ending first =
         Program(Words{"sh", "-c", here + "box.xml -D size=32 --seconds 0.5 -o out.exr --run-dir run"}).wait(kSoon);
     ASSERT_EQ(first.code, 0) << first.output;
-    const std::string image = read_text(folder / "image.exr");
+    const std::string image = read_file(folder / "image.exr");
     const Ending again = Program(Words{"sh", "-c", here + "run/job.toml --schedule run/schedule.toml"}).wait(kSoon);
     ASSERT_EQ(again.code, 0) << again.output;
-    EXPECT_EQ(read_text(folder / "image.exr"), image) << "the record is untouched";
+    EXPECT_EQ(read_file(folder / "image.exr"), image) << "the record is untouched";
     int runs = 0;
     for (const auto& entry : fs::directory_iterator(parent / "runs")) {
         ++runs;

@@ -43,7 +43,7 @@ Hashes render_scene(const std::vector<std::string>& launcher, const std::vector<
         EXPECT_GT(summary["passes"].back()["tree_regions"], 8) << "the test must exercise the tree";
     }
     if (thins) {
-        EXPECT_LT(summary["passes"].back()["next_event_n"], 0.9) << "the test must exercise learned next event";
+        EXPECT_LT(summary["passes"].back()["next_event_samples"], 0.9) << "the test must exercise learned next event";
     }
     std::filesystem::remove_all(folder);
     const nlohmann::json& tails = summary["tail_worst"];

@@ -4,11 +4,9 @@
 #include <signal.h>
 
 #include <fstream>
-#include <map>
 
 #include "common/image/exr.h"
 #include "tests/mpi/program.h"
-#include "tests/support/support.h"
 
 namespace treefarm::test {
 namespace {

@@ -62,7 +62,7 @@ void expect_same_numbers(const std::map<std::string, nlohmann::json>& a,
         EXPECT_EQ(cell["flip"], other["flip"]) << name;
         ASSERT_EQ(cell["passes"].size(), other["passes"].size()) << name;
         for (std::size_t k = 0; k < cell["passes"].size(); ++k)
-            for (const char* figure : {"measured", "spp_done", "stuv", "nonzero_share", "tree_memory", "estimate"})
+            for (const char* figure : {"measured", "spp_done", "stuv", "nonzero_share", "tree_memory", "image_error"})
                 EXPECT_EQ(cell["passes"][k][figure], other["passes"][k][figure]) << name << ", " << figure;
     }
 }
@@ -181,7 +181,7 @@ TEST(StudyProgram, MeasuresAgainstAGivenImage) {
             // 7 against 256 samples: the error is that of the cell, which knows it.
             const nlohmann::json& last = cell["passes"].back();
             EXPECT_NEAR(
-                std::log(last["measured"]["rmse_over_mean"].get<double>() / last["estimate"]["relative"].get<double>()),
+                std::log(last["measured"]["rmse_over_mean"].get<double>() / last["image_error"]["relative"].get<double>()),
                 0.0, 0.7)
                 << name;
             const nlohmann::json summary = read_summary(results / "cells" / name);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 
 #include "common/guiding/sd_tree/refine.h"
 #include "common/guiding/sd_tree/sd_tree_sampler.h"

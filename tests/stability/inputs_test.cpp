@@ -5,6 +5,7 @@
 #include "coordinator/input/check/validate.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/mitsuba_fixture.h"
+#include "tests/support/refusal.h"
 
 namespace treefarm {
 namespace {
@@ -13,12 +14,7 @@ class Inputs : public test::MitsubaFixture {
   protected:
     /// The error's text; empty where the scene is accepted.
     std::string refusal(const std::string& body) const {
-        try {
-            load_with_sensor(body);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
+        return test::refusal_of([&] { load_with_sensor(body); });
     }
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Emitters that are tiny, huge, distant, or hardly there.
-#include <random>
 
 #include "tests/support/hard_case.h"
 #include "tests/support/light_checks.h"

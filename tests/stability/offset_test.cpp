@@ -274,7 +274,7 @@ TEST_P(Offset, ShadowSegmentsBetweenTwoSurfacesAreFree) {
     figure_of(40000);
 }
 
-INSTANTIATE_TEST_SUITE_P(Places, Offset, testing::ValuesIn(kScalesAndOffsets));
+INSTANTIATE_TEST_SUITE_P(Positions, Offset, testing::ValuesIn(kScalesAndOffsets));
 
 /// 13 | Concentric shells a hundred-thousandth of their radius apart
 /// Others: at planetary coordinates the offset was kilometres, past the next surface (huira #46).

@@ -109,7 +109,7 @@ TEST_P(Scale, CornellBoxLooksTheSame) {
     test::figure("pixels beyond four standard errors, of 1024, 1000 sizes away", different);
 }
 
-INSTANTIATE_TEST_SUITE_P(Places, Scale, testing::ValuesIn(kScalesAndOffsets));
+INSTANTIATE_TEST_SUITE_P(Positions, Scale, testing::ValuesIn(kScalesAndOffsets));
 
 /// 12 | Scenes scaled by powers of two
 /// Others: fixed offsets and thresholds in scene units (Mitsuba 3 #219, #1871; GLSL-PathTracer #35; three-gpu

@@ -20,10 +20,10 @@ namespace {
 /// do a panorama's on its seam and 2^-21 off its poles. What is nowhere goes nowhere.
 TEST(Splats, OnEdges) {
     const LetFloatsBe hostile;  // numbers that are none come in
-    std::vector<double> places = {-1e300, 1e300, test::kInfinity, -test::kInfinity, test::kNan};
+    std::vector<double> positions = {-1e300, 1e300, test::kInfinity, -test::kInfinity, test::kNan};
     for (int twice = -6; twice <= 20; ++twice)
         for (const double beside : {0.0, -1e-12, 1e-12, -0x1p-21, 0x1p-21})
-            places.push_back(0.5 * twice + beside);
+            positions.push_back(0.5 * twice + beside);
     test::Worst worst;
     for (const auto& [kind, radius] : {std::pair(PixelFilter::box, 0.5f),
                                        {PixelFilter::box, 0.7f},
@@ -39,7 +39,7 @@ TEST(Splats, OnEdges) {
             const PixelPicker picker(film, false);
             const FilterSampler filter(film);
             const double row = double(filter.value(0.0f)), per_window = 7.0 / film.width;
-            for (const double x : places) {
+            for (const double x : positions) {
                 std::vector<double> shares;
                 for (int i = 0; i < film.width; ++i)
                     shares.push_back(double(filter.value(static_cast<float>(x - (first + i + 0.5)))));

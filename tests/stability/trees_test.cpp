@@ -187,13 +187,13 @@ TEST(Trees, MixturesOfOneBin) {
     double least = 1.0;
     for (int bin = 0; bin < kMixtureBins; ++bin)
         for (const double scale : {1e-300, 1e-30, 1.0, 1e30, 1e300})
-            for (const double prior : {kPolicy.learning.least_bsdf_fraction, 0.5, 1.0})
+            for (const double prior : {tuned("learning.least_bsdf_fraction"), 0.5, 1.0})
                 for (const double weight : {0.0, 1e-300, 1.0, 1e300}) {
                     MixtureHistogram histogram{};
                     histogram[static_cast<std::size_t>(bin)] = scale;
                     const double a = best_bsdf_fraction(histogram, prior, weight);
                     least = std::min(least, a);
-                    ASSERT_TRUE(a >= kPolicy.learning.least_bsdf_fraction && a <= 1.0)
+                    ASSERT_TRUE(a >= tuned("learning.least_bsdf_fraction") && a <= 1.0)
                         << bin << " " << scale << " " << a;
                     if (weight == 0.0) {
                         ASSERT_EQ(a > 0.5, bin >= kMixtureBins / 2) << bin << " " << a;

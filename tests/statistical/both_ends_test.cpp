@@ -104,7 +104,7 @@ TEST(LightSubpaths, AreGivenUpWhereTheyDoNotPay) {
     EXPECT_EQ(run.plans.back().layers.splats.pixels, 0u);
     EXPECT_GT(light_subpath_gain(run.stats[2]).noise, 0);
     EXPECT_LT(light_subpath_gain(run.stats[2]).at_equal_cost(), 0.9);
-    EXPECT_NEAR(light_subpath_gain(run.stats[2]).found, 1, 0.05);
+    EXPECT_NEAR(light_subpath_gain(run.stats[2]).mean_ratio, 1, 0.05);
     EXPECT_EQ(light_subpath_gain(run.stats.back()).noise, 0) << "nothing to compare";
     const Rendered path = test::rendered(render(scene, "reference", 60, LightSelection::tree), scene.film);
     expect_same_image(test::rendered(run, scene.film), path, "open sky", 0.02);
@@ -123,7 +123,7 @@ TEST(LightSubpaths, PathsAloneAreThoseOfPathTracing) {
     EXPECT_NEAR(gain.noise / shown, 1, 0.15);
     const auto rays = [](const TraceStats& s) { return double(s.rays + s.shadow_rays) / double(s.paths); };
     EXPECT_NEAR(gain.rays / (rays(both.stats[2]) / rays(path.stats[2])), 1, 0.03);
-    EXPECT_NEAR(gain.found, 1, 0.03);
+    EXPECT_NEAR(gain.mean_ratio, 1, 0.03);
 }
 
 class Caustics : public testing::TestWithParam<const char*> {};

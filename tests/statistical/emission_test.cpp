@@ -217,10 +217,10 @@ TEST_P(EveryKind, RaysBringWhatNextEventFinds) {
             dot(hit.ng, start.ray.direction) < 0.0f)
             by_rays[static_cast<std::size_t>(cell_of(hit.p))].add(double(average(start.weight)));
 
-        const Draw place = draw({18, i, 0}, 1, Stream::camera), light = draw({18, i, 0}, 1, Stream::light);
+        const Draw position = draw({18, i, 0}, 1, Stream::camera), light = draw({18, i, 0}, 1, Stream::light);
         Hit at;
-        if (!scene.geometry().intersect({{to_unit(place[0]) * 2 - 1, to_unit(place[1]) * 2 - 1, 1e-3f}, {0, 0, -1}},
-                                        at))
+        if (!scene.geometry().intersect(
+                {{to_unit(position[0]) * 2 - 1, to_unit(position[1]) * 2 - 1, 1e-3f}, {0, 0, -1}}, at))
             continue;
         const DirectSample sample = scene.emitters().sample_direct(at.p, light);
         const float cosine = dot(at.ng, sample.wi);

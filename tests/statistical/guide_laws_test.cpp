@@ -85,8 +85,8 @@ class GuideLaws : public ::testing::Test {
     /// Models with a region that is worth a look, and what they are.
     static std::vector<Named> models() {
         std::vector<Named> all;
-        const auto add = [&](const std::string& name, const Model& model, const Vec3& place) {
-            all.push_back({name, model, Sampler(model).region(place)});
+        const auto add = [&](const std::string& name, const Model& model, const Vec3& position) {
+            all.push_back({name, model, Sampler(model).region(position)});
         };
         const Sampler guide(first());
         const std::uint32_t code = direction_to_code(normalize(Vec3(0.3f, -0.5f, 0.7f)));
@@ -197,15 +197,15 @@ TYPED_TEST(GuideLaws, TheRadianceItKnowsIsThatOfItsRecords) {
     const auto light = [](const Vec3& d) { return d.z > 0.0f ? 3.0f : 0.5f; };
     typename TypeParam::Model model = TestFixture::first();
     typename TypeParam::Learner learner;
-    const Vec3 place(0.5f, 0.4f, 0.3f);
-    EXPECT_LE(Sampler(model).radiance(Sampler(model).region(place), 0), 0.0f) << "nothing is known yet";
+    const Vec3 position(0.5f, 0.4f, 0.3f);
+    EXPECT_LE(Sampler(model).radiance(Sampler(model).region(position), 0), 0.0f) << "nothing is known yet";
     for (std::uint32_t pass = 0; pass < 3; ++pass) {
         const Sampler guide(model);
         RecordLog log;
         log.begin(guide.distribution_count());
         log.drafts.resize(Walk::kRecordsPerVertex);
         typename Walk::Target target;
-        target.region = guide.region(place);
+        target.region = guide.region(position);
         for (std::uint32_t i = 0; i < 100'000; ++i) {
             const Draw random = draw({8, i, pass}, 0, Stream::scatter);
             const Vec3 d = square_to_direction({to_unit(random[0]), to_unit(random[1])});
@@ -220,7 +220,7 @@ TYPED_TEST(GuideLaws, TheRadianceItKnowsIsThatOfItsRecords) {
     }
     const Sampler guide(model);
     for (const Vec3& d : {Vec3(0.1f, 0.2f, 1.0f), Vec3(-0.3f, 0.4f, 1.0f), Vec3(0.1f, -0.2f, -1.0f)})
-        EXPECT_NEAR(guide.radiance(guide.region(place), direction_to_code(normalize(d))) / light(d), 1.0f, 0.1f);
+        EXPECT_NEAR(guide.radiance(guide.region(position), direction_to_code(normalize(d))) / light(d), 1.0f, 0.1f);
 }
 
 /// Law 4: sums are the same bytes however their records are split, in whatever order and by how many threads.

@@ -47,7 +47,7 @@ TEST(LightsAgainstPath, OfEachLength) {
     }
 }
 
-TEST(LightsAgainstPath, AtAnyScaleAndPlaceWithoutLimit) {
+TEST(LightsAgainstPath, AtAnyScaleAndPositionWithoutLimit) {
     for (const auto& [scale, offset] : {std::pair(1.0f, 0.0f), {1e-4f, 0.0f}, {1e5f, 0.0f}, {1.0f, 1e3f}})
         expect_image_of_paths(small(test::cornell_box(scale, Vec3(offset))), {}, "scale " + std::to_string(scale));
 }

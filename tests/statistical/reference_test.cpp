@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "common/config/job_reader.h"
-#include "common/metrics/z_test.h"
 #include "coordinator/input/load.h"
 #include "tests/support/chi_square.h"
 #include "tests/support/rendered.h"
@@ -46,16 +45,7 @@ TEST_P(OwnScenes, ReferenceAndUnguidedPathAgree) {
     job.integrator.type = "reference";
     job.sampler.seed = 22;
     const Rendered reference = render(loaded.scene, job);
-    ZTestOptions options;
-    options.block = 8;
-    const ZTestInput input{path.mean, reference.mean, &path.variance, &reference.variance};
-    const BlockZTest blocks = block_z_test(input, options);
-    const PixelZTest pixels = pixel_z_test(input, options);
-    EXPECT_TRUE(blocks.pass) << "worst block z " << blocks.max_abs_z << " of " << blocks.limit;
-    EXPECT_LT(blocks.mean_z2, 2.0);
-    EXPECT_TRUE(pixels.pass) << pixels.accepted << " of " << pixels.tests;
-    for (const double z : blocks.image_z)
-        EXPECT_LT(std::abs(z), 4.0);
+    test::expect_z_tests_pass({path.mean, reference.mean, &path.variance, &reference.variance});
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, OwnScenes, testing::ValuesIn(own_scenes()), [](const auto& info) {

@@ -15,7 +15,7 @@ inline const std::vector<std::vector<std::string>> kFloors = {
     {"common/base/text", "common/config/effects"},
     {"common/base"},
     {"common/base/files", "common/math"},
-    {"common/image", "common/film", "common/guiding/statistics", "common/scene/kinds/traits"},
+    {"common/image", "common/runs", "common/film", "common/guiding/statistics", "common/scene/kinds/traits"},
     {"common/metrics", "common/guiding/regions", "common/scene/kinds/emitters", "common/scene/kinds/materials",
      "common/scene/kinds/shapes", "common/scene/kinds/textures"},
     {"common/metrics/flip", "common/guiding/grid", "common/guiding/qtable", "common/guiding/sd_tree",

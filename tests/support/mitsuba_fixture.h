@@ -3,30 +3,20 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <string>
 
 #include "coordinator/input/load.h"
+#include "tests/support/refusal.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm::test {
 
-/// Fixture that writes files below the test's temporary folder, and reads them.
-class MitsubaFixture : public ::testing::Test {
+/// Writes files below the test's temporary folder and reads them.
+class MitsubaFixture : public FolderTest {
   protected:
-    void SetUp() override {
-        folder_ = std::filesystem::path(::testing::TempDir()) / "mitsuba_test" /
-                  ::testing::UnitTest::GetInstance()->current_test_info()->name();
-        std::filesystem::remove_all(folder_);
-        std::filesystem::create_directories(folder_ / "sub");
-    }
-
-    std::filesystem::path write(const std::string& name, const std::string& text) const {
-        std::ofstream(folder_ / name, std::ios::binary) << text;
-        return folder_ / name;
-    }
+    void SetUp() override { std::filesystem::create_directories(folder_ / "sub"); }
 
     LoadedScene load(const std::string& body, const std::string& version = "0.6.0",
                      const std::map<std::string, std::string>& defines = {}, bool lenient = false) const {
@@ -39,7 +29,10 @@ class MitsubaFixture : public ::testing::Test {
         return load("<sensor type=\"perspective\"/>\n" + body, version);
     }
 
-    std::filesystem::path folder_;
+    /// The message about such a scene that is refused; "" for one that is read.
+    std::string refusal(const std::string& body, const std::string& version = "0.6.0") const {
+        return refusal_of([&] { load_with_sensor(body, version); });
+    }
 };
 
 inline void expect_near(const Vec3& a, const Vec3& b, float tolerance = 1e-5f) {

@@ -27,8 +27,21 @@ inline Rendered rendered(const LocalRender& run, const Film& film) {
     return images;
 }
 
-/// Compares an image with path tracing's within both uncertainties, in blocks and as a whole. `noise`: largest allowed
-/// noise of its mean.
+/// Holds two images against each other by all z-tests, in blocks of 8 x 8 pixels.
+inline void expect_z_tests_pass(const ZTestInput& input) {
+    ZTestOptions options;
+    options.block = 8;
+    const BlockZTest blocks = block_z_test(input, options);
+    const PixelZTest pixels = pixel_z_test(input, options);
+    EXPECT_TRUE(blocks.pass) << "worst block z " << blocks.max_abs_z << " of " << blocks.limit;
+    EXPECT_LT(blocks.mean_z2, 2.0);
+    EXPECT_TRUE(pixels.pass) << pixels.accepted << " of " << pixels.tests;
+    for (const double z : blocks.image_z)
+        EXPECT_LT(std::abs(z), 4.0);
+}
+
+/// Holds an image against that of paths, as far as both are known, in blocks and as a whole. `noise`: of its mean, at
+/// most.
 inline void expect_same_image(const Rendered& image, const Rendered& path, const std::string& what,
                               double noise = 0.02) {
     ZTestOptions options;

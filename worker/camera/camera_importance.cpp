@@ -25,7 +25,7 @@ CameraImportance::CameraImportance(const Camera& camera, const Film& film)
       is_parallel_(camera.is_orthographic()),
       panoramic_(camera.panoramic) {}
 
-void CameraImportance::place(FilmConnection& connection, const Vec3d& from_corner) const {
+void CameraImportance::set_position(FilmConnection& connection, const Vec3d& from_corner) const {
     const double per_area2 = 1.0 / normal_.dot(normal_);
     connection.x = from_corner.cross(down_).dot(normal_) * per_area2 * width_;
     connection.y = across_.cross(from_corner).dot(normal_) * per_area2 * height_;
@@ -44,7 +44,7 @@ FilmConnection CameraImportance::through_lens(const Vec3& p, const Draw& lens) c
     const double t = (corner_ - shift).dot(normal_) / ahead;
     const double distance2 = to_p.dot(to_p);
     if (!(t > 0.0 && std::isfinite(t) && distance2 > 0.0)) return connection;
-    place(connection, shift + to_p * t - corner_);
+    set_position(connection, shift + to_p * t - corner_);
     const double distance = std::sqrt(distance2), cubed = distance2 * distance * t * t;
     connection.direction_pdf = cubed / std::abs(ahead);
     connection.g = connection.direction_pdf / distance2;
@@ -59,7 +59,7 @@ FilmConnection CameraImportance::parallel(const Vec3& p) const {
     const Vec3d from_corner = Vec3d(p) - origin_ - corner_;
     const double along = parallel_.dot(normal_), distance = from_corner.dot(normal_) / along;
     if (!(distance > 0.0 && std::isfinite(distance))) return connection;
-    place(connection, from_corner - parallel_ * distance);
+    set_position(connection, from_corner - parallel_ * distance);
     connection.g = 1.0 / std::abs(along);
     connection.target = Vec3(Vec3d(p) - parallel_ * distance);
     connection.direction = Vec3(-parallel_);

@@ -39,7 +39,7 @@ class CameraImportance {
     FilmConnection parallel(const Vec3& p) const;
     FilmConnection panorama(const Vec3& p) const;
     /// Sets the film position of a point of the film's plane, given relative to the film's corner.
-    void place(FilmConnection& connection, const Vec3d& from_corner) const;
+    void set_position(FilmConnection& connection, const Vec3d& from_corner) const;
 
     Vec3d origin_, corner_, across_, down_;
     Vec3d normal_;  ///< across x down

@@ -11,17 +11,18 @@ namespace {
 template <class Surface>
 SurfacePassage passage(const Surface& surface, const Vec3& wi, bool delta) {
     if constexpr (Surface::kGeneral) {
-        if (wi.z < 0.0f && !delta) return {surface.eta2() == 1.0f ? LightWay::sheet : LightWay::rough_glass, false};
-        if (wi.z < 0.0f) return {surface.transmits() ? LightWay::smooth_glass : LightWay::diffuse, true};  // else: null
-        if (delta) return {LightWay::mirror, true};
-        if (surface.view_dependent()) return {LightWay::glossy, false};
+        if (wi.z < 0.0f && !delta) return {surface.eta2() == 1.0f ? PathClass::sheet : PathClass::rough_glass, false};
+        if (wi.z < 0.0f)
+            return {surface.transmits() ? PathClass::smooth_glass : PathClass::diffuse, true};  // else: null
+        if (delta) return {PathClass::mirror, true};
+        if (surface.view_dependent()) return {PathClass::glossy, false};
     }
-    return {LightWay::diffuse, delta};
+    return {PathClass::diffuse, delta};
 }
 
 /// Forwards the walk's events to PathEvents. The walk has one path at a time, so that the events of several are not
 /// mixed.
-struct Teller : NoObserver {
+struct EventReporter : NoObserver {
     static constexpr bool kOneByOne = true;
 
     PathEvents* events = nullptr;
@@ -43,7 +44,7 @@ struct Teller : NoObserver {
                            contribution);
     }
     void roulette(float survival, bool survives) { events->roulette(survival, survives); }
-    void other_way(const Ray& ray, const Rgb& throughput) { events->other_way(ray, throughput); }
+    void other_branch(const Ray& ray, const Rgb& throughput) { events->other_branch(ray, throughput); }
     void split(std::uint32_t paths, const Rgb& throughput) { events->split(paths, throughput); }
     void split_path(const SplitPath& path) { events->split_path(path); }
     void end(const char* why) { events->end(why); }
@@ -54,7 +55,8 @@ Rgb observe(const TraceScene& scene, const Resolved& job, const PassPlan& pass, 
             int y, std::uint32_t sample, PathEvents& events) {
     const PathKey path{job.sampler.seed, scene.film().key_of(x, y), pass.first_sample + sample};
     TraceStats stats;
-    PathKernel<G, Surface, kGuided, false, Teller> kernel(scene, guide, PathSettings(scene, job, pass, guide), stats);
+    PathKernel<G, Surface, kGuided, false, EventReporter> kernel(scene, guide, PathSettings(scene, job, pass, guide),
+                                                                 stats);
     kernel.observer().events = &events;
     kernel.add(path, scene.camera().generate(x, y, path));
     kernel.trace();

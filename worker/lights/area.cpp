@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "common/base/error.h"
-#include "common/base/policy.h"
 
 namespace treefarm {
 namespace {
@@ -47,7 +46,7 @@ double AreaLight::power(const LightScene& scene) const {
 
 void AreaLight::cut(const LightScene& scene, float least_extent) {
     const EmbreeScene& geometry = *scene.geometry;
-    if (geometry.triangle_count(shape) <= kPolicy.lights.few_triangles) return;
+    if (geometry.triangle_count(shape) <= AreaPatches::kFewTriangles) return;
     const std::vector<double> areas = part_areas(geometry, shape);
     Box3 box;
     const auto center = [&](std::uint32_t triangle) {

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "common/base/policy.h"
-
 namespace treefarm {
 namespace {
 
@@ -23,7 +21,7 @@ AreaPatches::AreaPatches(std::span<const double> areas, const std::function<Vec3
         triangles_.push_back(i);
         total += areas[i];
     }
-    if (triangles_.size() <= kPolicy.lights.few_triangles) {
+    if (triangles_.size() <= kFewTriangles) {
         triangles_.clear();
         return;
     }
@@ -32,7 +30,7 @@ AreaPatches::AreaPatches(std::span<const double> areas, const std::function<Vec3
         centers[i] = center(i);
     std::vector<Run> runs{{0, static_cast<std::uint32_t>(triangles_.size()), total}};
     const auto cuts = [&](const Run& run) {
-        return run.end - run.begin > kPolicy.lights.few_triangles && run.area > kPolicy.lights.small_share * total;
+        return run.end - run.begin > kFewTriangles && run.area > kSmallShare * total;
     };
     while (runs.size() < kMostPatches) {
         const auto largest = std::max_element(runs.begin(), runs.end(), [&](const Run& a, const Run& b) {

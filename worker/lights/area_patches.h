@@ -14,8 +14,11 @@ namespace treefarm {
 /// far ones. Within a patch triangles are chosen by area.
 class AreaPatches {
   public:
-    /// Largest number of patches; lights.few_triangles and small_share usually end the cutting earlier.
+    /// At most so many, whatever the areas are.
     static constexpr std::size_t kMostPatches = 256;
+    /// Patches are not cut further that have so few triangles, or at most this share of the mesh's area.
+    static constexpr std::size_t kFewTriangles = 16;
+    static constexpr double kSmallShare = 1.0 / 64;
 
     AreaPatches() = default;  ///< uncut
     /// `center`: centre of each triangle that has an area. A mesh with few triangles stays uncut.

@@ -6,20 +6,20 @@
 
 namespace treefarm {
 
-EmissionSample Emitters::emit(const Draw& place, const Draw& direction, const EmissionChoice* choice) const {
+EmissionSample Emitters::emit(const Draw& position, const Draw& direction, const EmissionChoice* choice) const {
     if (selection_.empty() || !(ball_.radius > 0.0f)) return {};
-    return choice ? emit_by(*choice, place, direction) : emit_by(emission_choice(), place, direction);
+    return choice ? emit_by(*choice, position, direction) : emit_by(emission_choice(), position, direction);
 }
 
-EmissionSample Emitters::emit_by(const EmissionChoice& choice, const Draw& place, const Draw& direction) const {
-    const std::uint32_t entry = choice.pick(place[0]);
+EmissionSample Emitters::emit_by(const EmissionChoice& choice, const Draw& position, const Draw& direction) const {
+    const std::uint32_t entry = choice.pick(position[0]);
     const float selection = choice.probability(entry);
     const std::size_t index = entry - area_lights_.size();
     EmissionSample sample;
     if (entry < area_lights_.size()) {
-        sample = emit_from_area(area_lights_[entry], selection, place, direction);
+        sample = emit_from_area(area_lights_[entry], selection, position, direction);
     } else if (index >= delta_lights_.size()) {
-        sample = emit_from_infinity(area_entries_ + static_cast<std::uint32_t>(index), place, direction, choice);
+        sample = emit_from_infinity(area_entries_ + static_cast<std::uint32_t>(index), position, direction, choice);
     } else {
         sample = emit_from_point(index, selection, direction);
     }
@@ -35,11 +35,11 @@ EmissionSample Emitters::emit_from_point(std::size_t index, float selection, con
     return sample;
 }
 
-EmissionSample Emitters::emit_from_area(const AreaLight& light, float selection, const Draw& place,
+EmissionSample Emitters::emit_from_area(const AreaLight& light, float selection, const Draw& position,
                                         const Draw& direction) const {
     EmissionSample sample;
     float density;
-    sample.start = light.point(scene_, place, density);
+    sample.start = light.point(scene_, position, density);
     const Vec3 local = square_to_cosine_hemisphere({to_unit(direction[0]), to_unit(direction[1])});
     sample.position_pdf = selection * density;
     if (!(sample.position_pdf > 0.0f)) return sample;
@@ -54,10 +54,10 @@ EmissionSample Emitters::emit_from_area(const AreaLight& light, float selection,
     return sample;
 }
 
-EmissionSample Emitters::emit_from_infinity(std::uint32_t entry, const Draw& place, const Draw& direction,
+EmissionSample Emitters::emit_from_infinity(std::uint32_t entry, const Draw& position, const Draw& direction,
                                             const EmissionChoice& choice) const {
     EmissionSample sample;
-    environments_.sample(entry, place, [&]<class Light>(const typename Light::Sample& drawn) {
+    environments_.sample(entry, position, [&]<class Light>(const typename Light::Sample& drawn) {
         const float pdf =
             environments_.pdf_of<Light>(drawn, emission_probabilities(choice.learned() ? &choice : nullptr));
         if (!(pdf > 0.0f)) return;

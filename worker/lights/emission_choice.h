@@ -4,7 +4,6 @@
 #include <span>
 
 #include "common/base/error.h"
-#include "common/base/policy.h"
 #include "worker/lights/discrete_table.h"
 
 namespace treefarm {
@@ -26,8 +25,8 @@ class EmissionChoice {
             sum += weights.back();
         }
         if (!(sum > 0)) return;
-        // Learned values may be wrong: no emitter is chosen much less often than by power.
-        constexpr auto kUnlearned = double(kPolicy.light_subpaths.unlearned);
+        // What was learned may be wrong: none is chosen much less often than by power.
+        constexpr auto kUnlearned = double(0.2f);
         for (std::uint32_t i = 0; i < power.size(); ++i)
             weights[i] = (1 - kUnlearned) * weights[i] / sum + kUnlearned * double(power.probability(i));
         learned_ = DiscreteTable(weights);

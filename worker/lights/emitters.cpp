@@ -7,7 +7,6 @@
 #include <type_traits>
 
 #include "common/base/error.h"
-#include "common/base/policy.h"
 
 namespace treefarm {
 namespace {
@@ -98,7 +97,8 @@ void Emitters::select_by_point(std::span<const double> power, LightSelection how
     std::vector<LightBounds> bounds;
     for (std::uint32_t i = 0; i < area_lights_.size(); ++i) {
         AreaLight& light = area_lights_[i];
-        light.cut(scene_, ball_.radius * kPolicy.lights.least_cut);
+        constexpr float kLeastCut = 1.0f / 32;  // of the scene's radius: smaller lamps look alike from everywhere
+        light.cut(scene_, ball_.radius * kLeastCut);
         first_entry_.push_back(static_cast<std::uint32_t>(of_entry.size()));
         for (std::uint32_t patch = 0; patch < light.patch_count(); ++patch) {
             light_of_entry_.push_back(i);

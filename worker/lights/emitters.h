@@ -97,7 +97,7 @@ class Emitters {
     /// Ray that leaves an emitter, the beginning of a light path; chosen independently of next event. `place` chooses
     /// the start, as the numbers of sample_direct() do, or the direction of light from infinity; direction[0] and [1]
     /// choose the direction, or the position across it. A scene without surfaces has no rays.
-    EmissionSample emit(const Draw& place, const Draw& direction, const EmissionChoice* choice = nullptr) const;
+    EmissionSample emit(const Draw& position, const Draw& direction, const EmissionChoice* choice = nullptr) const;
     /// Densities with which emit() starts at a point of an area emitter in the unit direction `away`; zeros if it does
     /// not shine there.
     EmissionDensity emission_density(const Hit& start, const Vec3& away, const EmissionChoice* choice = nullptr) const;
@@ -158,11 +158,11 @@ class Emitters {
     std::uint32_t entry_of(std::uint32_t light, const Hit& hit) const {
         return light_of_entry_.empty() ? light : first_entry_[light] + area_lights_[light].patch_of(hit);
     }
-    EmissionSample emit_by(const EmissionChoice& choice, const Draw& place, const Draw& direction) const;
-    EmissionSample emit_from_area(const AreaLight& light, float selection, const Draw& place,
+    EmissionSample emit_by(const EmissionChoice& choice, const Draw& position, const Draw& direction) const;
+    EmissionSample emit_from_area(const AreaLight& light, float selection, const Draw& position,
                                   const Draw& direction) const;
     EmissionSample emit_from_point(std::size_t index, float selection, const Draw& direction) const;
-    EmissionSample emit_from_infinity(std::uint32_t entry, const Draw& place, const Draw& direction,
+    EmissionSample emit_from_infinity(std::uint32_t entry, const Draw& position, const Draw& direction,
                                       const EmissionChoice& choice) const;
     EmissionProbabilities emission_probabilities(const EmissionChoice* choice) const {
         return {choice, area_entries_ - static_cast<std::uint32_t>(area_lights_.size())};

@@ -26,7 +26,7 @@ void FlatLights::pick(FlatBatch& b) const {
     const std::size_t blocks = (count_ + LightLanes::kCount - 1) / LightLanes::kCount;
     const LightSpace space = space_;
     for (std::uint32_t i = 0; i < points; ++i) {
-        const Vec3 p = space.place({b.x[i], b.y[i], b.z[i]});
+        const Vec3 p = space.normalised({b.x[i], b.y[i], b.z[i]});
         b.x[i] = p.x;
         b.y[i] = p.y;
         b.z[i] = p.z;

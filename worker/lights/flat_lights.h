@@ -120,7 +120,7 @@ class FlatLights {
 
         Widths(const FlatLights& lights, const LightReceiver& receiver) {
             alignas(32) LightLanes::Floats brings[2];
-            const Vec3 p = lights.space_.place(receiver.p);
+            const Vec3 p = lights.space_.normalised(receiver.p);
             lights.lanes_[0].estimate(p, receiver, brings[0]);
             float total = sum_of(brings[0]);
             if (lights.count_ > LightLanes::kCount) {

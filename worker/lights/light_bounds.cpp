@@ -81,8 +81,8 @@ LightBounds joined(const LightBounds& a, const LightBounds& b) {
 }
 
 double sampling_cost(const LightBounds& bounds, double least_area) {
-    const double place = bounds.at_infinity ? 1.0 : std::max(area(bounds.box), least_area);
-    return bounds.amount * place * direction_measure(bounds.cone.half_turns, bounds.falloff);
+    const double extent = bounds.at_infinity ? 1.0 : std::max(area(bounds.box), least_area);
+    return bounds.amount * extent * direction_measure(bounds.cone.half_turns, bounds.falloff);
 }
 
 }  // namespace treefarm

@@ -15,7 +15,7 @@ class LightSpace {
     /// Units for these emitters. Throws RunError if a position is undefined, or an amount is negative or not finite.
     explicit LightSpace(std::span<const LightBounds> bounds);
 
-    Vec3 place(const Vec3& p) const { return (p - origin_) * scale_; }
+    Vec3 normalised(const Vec3& p) const { return (p - origin_) * scale_; }
     void set(LightLanes& lanes, int lane, const LightBounds& bounds) const {
         lanes.set(lane, bounds, Imath::V3d(origin_), double(scale_), per_amount_);
     }

@@ -59,7 +59,7 @@ class LightTree {
     }
 
     /// Probabilities on a descent: down to the cluster, and below it.
-    struct Way {
+    struct Descent {
         float above = 1.0f, below = 1.0f;
         std::uint8_t cluster = kNoCluster;
 
@@ -72,18 +72,18 @@ class LightTree {
             }
         }
     };
-    LightPick completed(std::uint32_t entry, const Way& way, const LightProbabilities* learned) const;
+    LightPick completed(std::uint32_t entry, const Descent& descent, const LightProbabilities* learned) const;
 
     /// Entry found by random bits below a node, or LightPick::kNone; adds the steps to `way`.
     std::uint32_t descend(std::uint32_t node, std::uint64_t bits, const Vec3& p, const LightReceiver& receiver,
-                          Way& way) const;
+                          Descent& descent) const;
     std::uint32_t pick_learned(std::uint64_t bits, std::uint32_t share, const Vec3& p,
                                const LightReceiver& receiver) const;
 
     LightSpace space_;
     std::vector<LightLanes> nodes_;
     std::vector<Link> links_;
-    std::vector<std::uint32_t> place_;           ///< per entry: its lane, or kNowhere
+    std::vector<std::uint32_t> lane_of_entry_;   ///< per entry: its lane, or kNowhere
     std::vector<std::uint32_t> heads_;           ///< per cluster: its first lane
     std::array<float, kLightClusters> fixed_{};  ///< per cluster: its probability in the defensive choice
     DiscreteTable shares_;                       ///< the defensive choice

@@ -3,9 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
-
-#include "common/base/policy.h"
 
 namespace treefarm {
 namespace {
@@ -16,8 +13,9 @@ double diagonal2(const Box3& box) {
     return size.dot(size);
 }
 
+/// Least area of a box in the tree's cost: boxes of lamps in a line have none of their own.
 double least_area(const Box3& box) {
-    const double area = kPolicy.lights.least_area * diagonal2(box);
+    const double area = 1e-3 * diagonal2(box);
     return area > 0 ? area : 1.0;
 }
 
@@ -38,11 +36,12 @@ void LightTreeBuilder::build(std::span<const double> shares) {
     }
     least_area_ = least_area(box);
     nodes_.reserve(2 * (near.size() + far.size()));
-    tree_.place_.assign(bounds_.size(), LightTree::kNowhere);
+    tree_.lane_of_entry_.assign(bounds_.size(), LightTree::kNowhere);
     std::vector<std::uint32_t> root;
     if (!far.empty()) {
         root.push_back(binary(far, 0));
-        if (!near.empty()) open(root, kPolicy.lights.far_lanes);
+        constexpr std::size_t kFarLanes = 4;  // of the root, that emitters at infinity may have
+        if (!near.empty()) open(root, kFarLanes);
     }
     if (!near.empty()) {
         std::vector<std::uint32_t> others{binary(near, 0)};
@@ -185,7 +184,7 @@ std::uint32_t LightTreeBuilder::wide(std::vector<std::uint32_t> children, std::u
         tree_.space_.set(tree_.nodes_[index], static_cast<int>(i), node.bounds);
         if (node.leaf) {
             tree_.nodes_[index].child[i] = LightLanes::kLeaf | node.left;
-            tree_.place_[node.left] = lane;
+            tree_.lane_of_entry_[node.left] = lane;
             continue;
         }
         // Emitters at infinity are separated first: a sun may be beside a sky.

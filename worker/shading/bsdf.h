@@ -52,7 +52,7 @@ constexpr bool may_transmit() {
 
 /// Whether a kind is smooth glass: one reflected and one refracted direction, and nothing else.
 template <class Kind>
-constexpr bool has_two_ways() {
+constexpr bool has_two_branches() {
     if constexpr (requires { Kind::kLobes; })
         return Kind::kLobes == (kDeltaLobe | kTransmittingLobe);
     else
@@ -83,8 +83,8 @@ struct Bsdf {
 
     /// The other way out of smooth glass, on the opposite side of `taken`; density 0 for other BSDFs, or if there is
     /// none.
-    BsdfSample other_way(const Vec3& wo, const Vec3& taken) const {
-        if (!visit([](const auto& bsdf) { return has_two_ways<std::decay_t<decltype(bsdf)>>(); })) return {};
+    BsdfSample other_branch(const Vec3& wo, const Vec3& taken) const {
+        if (!visit([](const auto& bsdf) { return has_two_branches<std::decay_t<decltype(bsdf)>>(); })) return {};
         const float last_lobe = taken.z > 0.0f ? 0x1.fffffep-1f : 0.0f;
         const BsdfSample other = sample(wo, {last_lobe, Vec2(0.5f)});
         return (other.wi.z > 0.0f) != (taken.z > 0.0f) ? other : BsdfSample{};

@@ -97,8 +97,8 @@ Rgb procedural(const MeshAttributeTexture&, const TexturePoint&) {
 /// Values of an attribute at the corners of a triangle; black without a mesh, which check_mesh_attributes() rules out.
 std::array<Rgb, 3> corner_values(const AttributeSlot& slot, const MeshPoint* at) {
     constexpr std::array<Rgb, 3> kNothing{Rgb(0.0f), Rgb(0.0f), Rgb(0.0f)};
-    if (!at || !at->mesh || slot.place >= at->mesh->attributes.size()) return kNothing;
-    const std::vector<Rgb>& values = at->mesh->attributes[slot.place].values;
+    if (!at || !at->mesh || slot.index >= at->mesh->attributes.size()) return kNothing;
+    const std::vector<Rgb>& values = at->mesh->attributes[slot.index].values;
     if (values.empty()) return kNothing;
     if (slot.of_faces) return {values[at->triangle], values[at->triangle], values[at->triangle]};
     const std::uint32_t* corner = at->mesh->indices.data() + 3 * std::size_t(at->triangle);
@@ -161,10 +161,10 @@ TextureSet::TextureSet(std::vector<Texture> textures, std::vector<TextureImage> 
         if (!texture) continue;
         reads_meshes_ = true;
         const auto found = std::find(attribute_names_.begin(), attribute_names_.end(), texture->name);
-        const auto place = static_cast<std::uint32_t>(found - attribute_names_.begin());
+        const auto index = static_cast<std::uint32_t>(found - attribute_names_.begin());
         if (found == attribute_names_.end()) attribute_names_.push_back(texture->name);
         slots_.resize(textures_.size());
-        slots_[i] = {place, MeshAttribute::is_of_faces(texture->name)};
+        slots_[i] = {index, MeshAttribute::is_of_faces(texture->name)};
     }
 }
 

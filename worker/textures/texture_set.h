@@ -27,7 +27,7 @@ struct TexturePoint {
 
 /// Location of a mesh-attribute texture's values.
 struct AttributeSlot {
-    std::uint32_t place = 0;  ///< index in Mesh::attributes
+    std::uint32_t index = 0;  ///< index in Mesh::attributes
     bool of_faces = false;
 };
 

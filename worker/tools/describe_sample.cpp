@@ -48,7 +48,7 @@ class TextEvents : public PathEvents {
     void roulette(float survival, bool survives) override {
         text_ << "  roulette survival " << survival << (survives ? "" : ", lost") << '\n';
     }
-    void other_way(const Ray& ray, const Rgb& throughput) override {
+    void other_branch(const Ray& ray, const Rgb& throughput) override {
         text_ << "the other way at depth 1: (delta) along " << ray.direction << " throughput " << throughput << '\n';
     }
     void split(std::uint32_t paths, const Rgb& throughput) override {

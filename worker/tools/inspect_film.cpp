@@ -22,9 +22,9 @@ FilmMaps film_maps(const TraceScene& scene, const AnyModel& tree, const AnySampl
         for (int x = 0; x < width; ++x, ++i) {
             maps.bsdf_fraction.values[i] = maps.view_fraction.values[i] = maps.cells.values[i] =
                 std::numeric_limits<float>::quiet_NaN();
-            const std::optional<InspectedPlace> place = seen_point(scene, x, y);
-            if (!place) continue;
-            const PlaceFacts facts = place_facts(scene, guide, *place);
+            const std::optional<InspectedPoint> point = seen_point(scene, x, y);
+            if (!point) continue;
+            const PointFacts facts = point_facts(scene, guide, *point);
             maps.regions.pixels[i] = hashed_colour(facts.guidance.region);
             maps.cells.values[i] = static_cast<float>(cells[facts.guidance.region]);
             if (facts.black || !facts.smooth) continue;

@@ -3,7 +3,7 @@
 
 #include "common/image/image.h"
 #include "common/metrics/plane.h"
-#include "worker/tools/inspect_place.h"
+#include "worker/tools/inspect_point.h"
 
 namespace treefarm {
 

@@ -6,74 +6,50 @@
 #include <cmath>
 #include <numeric>
 
-#include "common/base/error.h"
-#include "common/base/policy.h"
 #include "common/math/elementary.h"
 
 namespace treefarm {
 namespace {
 
-constexpr std::uint8_t kVersion = 1;
 constexpr std::uint32_t kOne = 1u << kMassBits;
+constexpr double kEvenPart = 0.1;  ///< of the samples: light that no record has found must be found
 
 }  // namespace
 
-GridSampler::GridSampler(const GridModel& model) : RegionSampler(model), strata_(model.mass) {}
-
 float GridSampler::radiance(std::uint32_t region, std::uint32_t code) const {
     if (!(flux(region) > 0.0f)) return -1.0f;
-    const auto even = static_cast<float>(kPolicy.grids.even_part);
+    const auto even = static_cast<float>(kEvenPart);
     return flux(region) * std::max(pdf(region, code) - even * kInvFourPi, 0.0f) / (1.0f - even);
 }
 
-GridModel GridLearner::learn(const GridModel& model, const CellSums& sums, const RefineSettings& settings,
-                             bool learn_mixture, RefineReport& report) {
-    if (sums.cells().size() != model.mass.size() || sums.counts().size() != model.leaf_count())
-        throw RunError("the sums to learn from belong to another grid");
-    GridModel next = model;
-    advance_even_regions(next, report);
+void GridCells::begin(GridModel& model, std::size_t cells) {
+    model.mass.assign(cells, kOne / kStrata);
+}
+
+double GridCells::learn(const GridModel& model, const CellSums& sums, const RefineSettings& settings,
+                        std::uint32_t region, GridModel& next) {
+    std::array<double, kStrata> energy;
+    for (std::uint32_t s = 0; s < kStrata; ++s)
+        energy[s] = static_cast<double>(sums.cells()[region * kStrata + s]);
+    const double recorded = std::accumulate(energy.begin(), energy.end(), 0.0);
     next.flux.resize(settings.with_flux ? model.leaf_count() : 0);
-    for (std::uint32_t r = 0; r < model.leaf_count(); ++r) {
-        std::array<double, kStrata> energy;
-        for (std::uint32_t s = 0; s < kStrata; ++s)
-            energy[s] = static_cast<double>(sums.cells()[r * kStrata + s]);
-        const double recorded = std::accumulate(energy.begin(), energy.end(), 0.0);
-        if (settings.with_flux)
-            next.flux[r] = learned_flux(recorded, sums.counts()[r], model.quantum_exponent[r], next.flux[r]);
-        next.quantum_exponent[r] = learned_exponent(recorded, sums.counts()[r], model.quantum_exponent[r]);
-        // Least variance has probabilities in proportion to the root of the second moment.
-        if (settings.target == GuidingTarget::variance)
-            for (double& e : energy)
-                e = std::sqrt(e);
-        if (recorded > 0) set_strata(energy, kPolicy.grids.even_part, &next.mass[r * kStrata]);
-    }
-    if (model.learns_lights()) lights_.learn(model, sums, report.origins, next);
-    if (model.decides_next_event()) next_event_.learn(model, sums, settings, report, next);
-    if (learn_mixture) mixture_.learn(model, sums, report.origins, next);
-    return next;
+    if (settings.with_flux)
+        next.flux[region] =
+            learned_flux(recorded, sums.counts()[region], model.quantum_exponent[region], next.flux[region]);
+    // Least variance has probabilities in proportion to the root of the second moment.
+    if (settings.target == GuidingTarget::variance)
+        for (double& e : energy)
+            e = std::sqrt(e);
+    if (recorded > 0) set_strata(energy, kEvenPart, &next.mass[region * kStrata]);
+    return recorded;
 }
 
-GridModel GridGuide::first(const Box3& bounds, const FirstModel& settings) {
-    GridModel model;
-    const std::uint32_t regions = begin_even_regions(model, bounds, settings);
-    model.mass.assign(std::size_t{regions} * kStrata, kOne / kStrata);
-    return model;
-}
-
-Bytes GridGuide::encode(const GridModel& model) {
-    ByteWriter out;
-    write_regions(out, model);
-    write_optional(out, model);
+void GridCells::write(ByteWriter& out, const GridModel& model) {
     for (const std::uint32_t mass : model.mass)
         out.put_varint(mass);
-    return pack_model(kMagic, kVersion, out.take());
 }
 
-GridModel GridGuide::decode(std::span<const std::uint8_t> bytes) {
-    const Bytes raw = unpack_model(kMagic, kVersion, bytes);
-    ByteReader in(raw);
-    GridModel model;
-    const std::uint32_t regions = read_even_regions(in, model);
+void GridCells::read(ByteReader& in, std::uint32_t regions, GridModel& model) {
     if (std::size_t{regions} * kStrata > in.remaining()) throw FormatError("a grid's strata are cut short");
     for (std::uint32_t r = 0; r < regions; ++r) {
         std::uint64_t left = kOne;
@@ -85,8 +61,6 @@ GridModel GridGuide::decode(std::span<const std::uint8_t> bytes) {
         }
         if (left != 0) throw FormatError("a region's probabilities do not sum to one");
     }
-    in.expect_end();
-    return model;
 }
 
 }  // namespace treefarm

@@ -4,12 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/guiding/regions/first_model.h"
-#include "common/guiding/regions/light_probabilities.h"
-#include "common/guiding/regions/mixture.h"
-#include "common/guiding/regions/next_event.h"
-#include "common/guiding/regions/region_sampler.h"
-#include "common/guiding/regions/strata.h"
+#include "common/guiding/regions/even_guide.h"
 
 namespace treefarm {
 
@@ -17,76 +12,57 @@ namespace treefarm {
 /// Q(region, stratum), the regions of a fixed grid and strata of directions (strata.h). A visit brings what its
 /// direction met at once, and for the rest what the table says of the next vertex (guiding.bootstrap, 1 here:
 /// Cavus 2020, eq. 2.27, by one sample of the integral); Q is the mean of visits, those of earlier passes at half their
-/// weight each time. Strata are sampled in proportion to Q, but for a floor (grids.table_floor): what was never sampled
+/// weight each time. Strata are sampled in proportion to Q, but for a floor (kTableFloor): what was never sampled
 /// would never be learned.
 struct QTableModel : RegionModel {
     std::vector<float> q;  ///< per region kStrata radiances, averaged over channels, >= 0 and finite
     bool operator==(const QTableModel&) const = default;
 };
 
+/// Least weight of a stratum, of its region's mean.
+inline constexpr double kTableFloor = 0.02;
+
 /// The table in the form that workers sample from.
-class QTableSampler : public RegionSampler {
+class QTableSampler : public StrataSampler {
   public:
     explicit QTableSampler(const QTableModel& model);
 
     static constexpr bool kCountsVisits = true;
 
-    StrataTable::Sample sample(std::uint32_t region, const Draw& random) const {
-        return strata_.sample(region, random);
-    }
-    float pdf(std::uint32_t region, std::uint32_t code) const { return strata_.pdf(region, code); }
     /// Q. What was never visited is 0, as the method begins.
-    float radiance(std::uint32_t region, std::uint32_t code) const { return q_[StrataTable::cell(region, code)]; }
+    float radiance(std::uint32_t region, std::uint32_t code) const { return q_[cell(region, code)]; }
 
-    // Where records go: CellAccumulator.
-    std::uint32_t cell_count() const { return strata_.cell_count(); }
-    std::uint32_t cell(std::uint32_t region, std::uint32_t code) const { return StrataTable::cell(region, code); }
-    std::uint32_t cell_side(std::uint32_t, std::uint32_t) const { return StrataTable::cell_side(); }
-    void prefetch_pdf(std::uint32_t, std::uint32_t) const {}
-    void prefetch_pdf_cell(std::uint32_t, std::uint32_t) const {}
-
-    std::size_t bytes() const { return region_bytes() + strata_.bytes() + q_.size() * sizeof(q_[0]); }
+    std::size_t bytes() const { return StrataSampler::bytes() + q_.size() * sizeof(q_[0]); }
 
   private:
-    StrataTable strata_;
     std::vector<float> q_;
 };
 
-/// The coordinator's memory: how many visits stand behind each Q.
-class QTableLearner {
+/// Cells of the table (EvenGuide), with the number of visits behind each Q.
+class QTableCells {
   public:
-    QTableModel learn(const QTableModel& model, const CellSums& sums, const RefineSettings& settings,
-                      bool learn_mixture, RefineReport& report);
+    using Model = QTableModel;
+    using Sampler = QTableSampler;
+
+    static constexpr std::uint32_t kMagic = 0x54514654;  ///< "TFQT"
+    static constexpr SamplerCost kCost = {16, 0, 8};
+
+    static void begin(QTableModel& model, std::size_t cells);
+    static void write(ByteWriter& out, const QTableModel& model);
+    static void read(ByteReader& in, std::uint32_t regions, QTableModel& model);
+    double learn(const QTableModel& model, const CellSums& sums, const RefineSettings& settings, std::uint32_t region,
+                 QTableModel& next);
 
     /// Lists what it remembers, for a checkpoint.
     template <class Archive>
     void serialize(Archive& archive) {
-        archive(visits_, lights_, next_event_, mixture_);
+        archive(visits_);
     }
 
   private:
     std::vector<double> visits_;  ///< per cell, those of earlier passes at less weight; empty: none
-    LightLearner lights_;
-    NextEventLearner next_event_;
-    MixtureLearner mixture_;
 };
 
-/// The table among the guides (guides.h).
-struct QTableGuide {
-    using Model = QTableModel;
-    using Sampler = QTableSampler;
-    using Learner = QTableLearner;
-
-    static constexpr std::uint32_t kMagic = 0x54514654;  ///< "TFQT"
-    static constexpr bool kGrows = false;
-    static constexpr int kKernels = 3;
-    static constexpr bool kPlainKernels = false;
-    static constexpr SamplerCost kCost = {16, 0, 8};
-
-    static QTableModel first(const Box3& bounds, const FirstModel& settings);
-    static Bytes encode(const QTableModel& model);
-    static QTableModel decode(std::span<const std::uint8_t> bytes);
-    static ModelFigures figures(const QTableModel& model) { return even_figures(model); }
-};
+using QTableGuide = EvenGuide<QTableCells>;
 
 }  // namespace treefarm

@@ -30,10 +30,10 @@ LightProbabilities learned_probabilities(std::span<const double, kLightClusters>
     for (const double m : moments)
         total += std::sqrt(m);
     if (!(total > 0 && std::isfinite(total))) return prior;
-    const double trust = vertices / (vertices + kPolicy.learning.lights_prior_vertices);
+    const double trust = vertices / (vertices + tuned("learning.lights_prior_vertices"));
     std::array<double, kLightClusters + 1> parts{};
     for (std::size_t c = 0; c < kLightClusters; ++c)
-        parts[c + 1] = trust * (1 - kPolicy.learning.lights_unlearned) * std::sqrt(moments[c]) / total +
+        parts[c + 1] = trust * (1 - tuned("learning.lights_unlearned")) * std::sqrt(moments[c]) / total +
                        (1 - trust) * double(prior[c + 1]) / kLightProbabilityOne;
     return rounded(parts);
 }
@@ -50,9 +50,9 @@ void LightLearner::learn(const RegionModel& tree, const CellSums& sums, std::spa
         const auto fresh = sums.lights(r);
         for (std::size_t c = 0; c < kLightClusters; ++c)
             evidence.moments[c] =
-                kPolicy.learning.kept_evidence * evidence.moments[c] +
+                kKeptEvidence * evidence.moments[c] +
                 std::ldexp(static_cast<double>(fresh[c]), light_sum_exponent(tree.quantum_exponent[r]));
-        evidence.vertices = kPolicy.learning.kept_evidence * evidence.vertices + static_cast<double>(sums.counts()[r]);
+        evidence.vertices = kKeptEvidence * evidence.vertices + static_cast<double>(sums.counts()[r]);
         learned[r] = learned_probabilities(evidence.moments, evidence.vertices, tree.light_probabilities[r]);
     }
     std::vector<Evidence> inherited;

@@ -27,7 +27,7 @@ double best_bsdf_fraction(const MixtureHistogram& histogram, double prior, doubl
         }
         return sum;
     };
-    double low = kPolicy.learning.least_bsdf_fraction, high = 1.0;
+    double low = tuned("learning.least_bsdf_fraction"), high = 1.0;
     for (int step = 0; step < 30; ++step) {
         const double middle = 0.5 * (low + high);
         (slope(middle) > 0.0 ? low : high) = middle;
@@ -48,13 +48,13 @@ void MixtureLearner::learn(const RegionModel& tree, const CellSums& sums, std::s
         double fresh = 0;
         for (std::size_t b = 0; b < kMixtureBins; ++b) {
             const double h = std::ldexp(static_cast<double>(bins[b]), tree.quantum_exponent[r]);
-            histogram[b] = kPolicy.learning.kept_evidence * histogram[b] + h;
+            histogram[b] = kKeptEvidence * histogram[b] + h;
             fresh += h;
         }
         const std::uint64_t records = sums.counts()[r];
         const double mean_record = records > 0 ? fresh / static_cast<double>(records) : 0.0;
         const double prior_weight =
-            kPolicy.learning.mixture_prior_records * (mean_record > 0 ? mean_record : total(histogram));
+            tuned("learning.mixture_prior_records") * (mean_record > 0 ? mean_record : total(histogram));
         const auto prior = static_cast<double>(tree.bsdf_fraction[r]);
         fraction[r] = prior_weight > 0 ? static_cast<float>(best_bsdf_fraction(histogram, prior, prior_weight))
                                        : tree.bsdf_fraction[r];

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "common/base/policy.h"
 #include "common/guiding/regions/refinement.h"
 #include "common/guiding/regions/region_model.h"
 #include "common/guiding/statistics/cell_sums.h"

@@ -10,8 +10,8 @@
 namespace treefarm {
 namespace {
 
-constexpr auto& kPolicyOf = kPolicy.next_event;
 constexpr std::size_t kChoices = kNextEventSamples.size();
+constexpr double kLeastRest = 0.02;  ///< of noise and of cost: no decision is believed to take away all
 
 /// Second moment of the region's direct light at a choice, in sums over the evidence.
 double moment(const NextEventEvidence& e, std::size_t choice) {
@@ -22,21 +22,22 @@ double rays(const NextEventEvidence& e, std::size_t choice) {
     const double drawn = e[kNextEventDrawn];
     const double traced = drawn > 0 ? e[kNextEventTraced] / drawn : 1.0;
     return e[kNextEventAsked] * static_cast<double>(kNextEventSamples[choice]) *
-           (kPolicyOf.sample_cost + kPolicyOf.shadow_ray_cost * traced);
+           (tuned("next_event.sample_cost") + tuned("next_event.shadow_ray_cost") * traced);
 }
 
 /// What a change from one choice to another may turn out worse than it looks, by chance.
 double doubt(const NextEventEvidence& e, std::size_t from, std::size_t to) {
     const double all = moment(e, kChoices - 1) - moment(e, 0);
     const double part = std::abs(moment(e, to) - moment(e, from));
-    return all > 0 ? kPolicyOf.standard_errors * std::sqrt(e[kNextEventSpread]) * std::min(part / all, 1.0) : 0.0;
+    return all > 0 ? tuned("next_event.standard_errors") * std::sqrt(e[kNextEventSpread]) * std::min(part / all, 1.0)
+                   : 0.0;
 }
 
 /// What is left of a region's noise and cost once a tree has learned what `steps` to fewer light samples leave to it.
 double left_by_trees(std::size_t steps) {
     double left = 1.0;
     for (; steps > 0; --steps)
-        left *= 1 - kPolicyOf.learned;
+        left *= 1 - tuned("next_event.learned");
     return left;
 }
 
@@ -46,7 +47,7 @@ std::size_t best_choice(const NextEventEvidence& e, std::size_t now, std::size_t
         return (moment(e, choice) + lambda * rays(e, choice)) * left_by_trees(std::min(choice, credited));
     };
     std::size_t best = now;
-    double least = price(now) * (1 - kPolicyOf.least_gain);
+    double least = price(now) * (1 - tuned("next_event.least_gain"));
     for (std::size_t choice = 0; choice < kChoices; ++choice) {
         if (choice == now) continue;
         const double cost = price(choice) + (choice > now ? doubt(e, now, choice) : 0.0);
@@ -60,7 +61,7 @@ std::size_t best_choice(const NextEventEvidence& e, std::size_t now, std::size_t
 
 void add_halved(NextEventEvidence& evidence, std::span<const std::uint64_t> fresh) {
     for (std::size_t i = 0; i < kNextEventSums; ++i)
-        evidence[i] = kPolicy.learning.kept_evidence * evidence[i] + static_cast<double>(fresh[i]) * next_event_unit(i);
+        evidence[i] = kKeptEvidence * evidence[i] + static_cast<double>(fresh[i]) * next_event_unit(i);
 }
 
 /// Means over the vertices of a cube, and the variance of what is known of d, the last moment less the first.
@@ -75,7 +76,7 @@ class Pooling {
     Pooling(const RegionModel& tree, std::span<const NextEventEvidence> evidence)
         : tree_(tree), evidence_(evidence), sums_(tree.nodes.size()), pooled_(evidence.size()) {
         add_up(0);
-        if (const double vertices = sums_[0][kNextEventAsked]; vertices > 0) hand_down(0, means_of(sums_[0], vertices));
+        if (const double vertices = sums_[0][kNextEventAsked]; vertices > 0) propagate(0, means_of(sums_[0], vertices));
     }
     std::vector<NextEventEvidence> take() { return std::move(pooled_); }
 
@@ -100,8 +101,8 @@ class Pooling {
     }
 
     /// `about`: means of the cube that the node's is a half of; of the root its own.
-    void hand_down(std::uint32_t node, const VertexMeans& about) {
-        const double lent = kPolicyOf.lent_vertices;
+    void propagate(std::uint32_t node, const VertexMeans& about) {
+        const double lent = tuned("next_event.lent_vertices");
         const double own = sums_[node][kNextEventAsked];
         VertexMeans means = about;
         for (std::size_t i = 0; i < kNextEventSums; ++i)
@@ -111,7 +112,7 @@ class Pooling {
         const RegionModel::Node& n = tree_.nodes[node];
         if (!n.is_leaf()) {
             for (const std::uint32_t child : n.child)
-                hand_down(child, means);
+                propagate(child, means);
             return;
         }
         NextEventEvidence& region = pooled_[n.child[1]];
@@ -138,7 +139,7 @@ NextEventVerdict decide_next_event(std::span<const NextEventEvidence> evidence, 
     double known = 0;
     for (const NextEventEvidence& e : evidence)
         known += e[kNextEventAsked];
-    if (!(price.rays > 0 && price.variance > 0 && paths > 0) || known < kPolicyOf.least_vertices) return {};
+    if (!(price.rays > 0 && price.variance > 0 && paths > 0) || known < tuned("next_event.least_vertices")) return {};
     const std::vector<std::uint8_t> in_force(codes.begin(), codes.end());
     const auto credited = [&](std::size_t region) -> std::size_t {
         if (trees == TreesLearn::no_more) return in_force[region];
@@ -160,8 +161,8 @@ NextEventVerdict decide_next_event(std::span<const NextEventEvidence> evidence, 
         }
         if (!changed) break;
         // Second moments bound variances from above: so much of the whole cannot have been theirs.
-        variance = std::max(variance + variance_change / paths, kPolicyOf.least_rest * variance);
-        cost = std::max(cost + cost_change / paths, kPolicyOf.least_rest * cost);
+        variance = std::max(variance + variance_change / paths, kLeastRest * variance);
+        cost = std::max(cost + cost_change / paths, kLeastRest * cost);
     }
     double always_variance = variance, always_cost = cost, asked = 0, low = 0;
     for (std::size_t r = 0; r < codes.size(); ++r) {
@@ -171,7 +172,7 @@ NextEventVerdict decide_next_event(std::span<const NextEventEvidence> evidence, 
         always_variance += (moment(e, 0) - moment(e, codes[r])) / paths;
         always_cost += (rays(e, 0) - rays(e, codes[r])) / paths;
     }
-    const double always = std::max(always_variance, kPolicyOf.least_rest * variance) * always_cost;
+    const double always = std::max(always_variance, kLeastRest * variance) * always_cost;
     return {always > 0 ? variance * cost / always : 1.0, asked > 0 ? low / asked : 0.0};
 }
 
@@ -183,7 +184,7 @@ void NextEventLearner::learn(const RegionModel& tree, const CellSums& sums, cons
     evidence_.resize(regions);
     for (std::uint32_t r = 0; r < regions; ++r)
         add_halved(evidence_[r], sums.next_event(r));
-    paths_ = kPolicy.learning.kept_evidence * paths_ + settings.next_event.paths;
+    paths_ = kKeptEvidence * paths_ + settings.next_event.paths;
     std::vector<std::uint8_t> codes = tree.next_event;
     report.next_event = decide_next_event(pool_next_event(tree, evidence_), paths_, settings.next_event,
                                           settings.last_update ? TreesLearn::no_more : TreesLearn::on, codes);
@@ -202,7 +203,7 @@ void NextEventLearner::learn(const RegionModel& tree, const CellSums& sums, cons
 NextEventVerdict ImageNextEventLearner::learn(const NextEventSums& sums, const NextEventPrice& price,
                                               std::uint8_t& code) {
     add_halved(evidence_, sums);
-    paths_ = kPolicy.learning.kept_evidence * paths_ + price.paths;
+    paths_ = kKeptEvidence * paths_ + price.paths;
     return decide_next_event({&evidence_, 1}, paths_, price, TreesLearn::nothing, {&code, 1});
 }
 

@@ -9,6 +9,10 @@
 
 namespace treefarm {
 
+/// Factor by which evidence of emitters, next event, mixtures and visits loses weight with each pass: that of a coarser
+/// model goes out of date.
+inline constexpr double kKeptEvidence = 0.5;
+
 /// What a pass costs and how noisy it is: by these a decision on next event weighs noise against rays.
 struct NextEventPrice {
     double variance = 0;  ///< of a camera sample, relative to the square of its block's light

@@ -78,7 +78,7 @@ void set_strata(std::span<const double> weight, double even_part, std::uint32_t*
     mass[0] += left;
 }
 
-StrataTable::Sample StrataTable::sample(std::uint32_t region, const Draw& random) const {
+StrataSampler::Sample StrataSampler::sample(std::uint32_t region, const Draw& random) const {
     const std::uint32_t* const mass = &mass_[region * kStrata];
     std::uint32_t rest = random[1] >> (32 - kMassBits), stratum = 0;
     while (rest >= mass[stratum])
@@ -92,16 +92,16 @@ StrataTable::Sample StrataTable::sample(std::uint32_t region, const Draw& random
     return {square_to_direction({coordinate(x), coordinate(y)}), code, pdf(region, code)};
 }
 
-float StrataTable::pdf(std::uint32_t region, std::uint32_t code) const {
+float StrataSampler::pdf(std::uint32_t region, std::uint32_t code) const {
     constexpr float kScale = kInvFourPi * static_cast<float>(kStrata) / static_cast<float>(kOne);
     return kScale * static_cast<float>(mass_[cell(region, code)]);
 }
 
-std::uint32_t StrataTable::cell(std::uint32_t region, std::uint32_t code) {
+std::uint32_t StrataSampler::cell(std::uint32_t region, std::uint32_t code) {
     return region * kStrata + (code >> kStratumShift);
 }
 
-std::uint32_t StrataTable::cell_side() {
+std::uint32_t StrataSampler::cell_side(std::uint32_t, std::uint32_t) {
     return 1u << (kDirectionBits - kStrataDepth);
 }
 

@@ -3,12 +3,13 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/base/random.h"
 #include "common/guiding/regions/first_model.h"
 #include "common/guiding/regions/refinement.h"
-#include "common/guiding/regions/region_model.h"
+#include "common/guiding/regions/region_sampler.h"
 
 namespace treefarm {
 
@@ -29,11 +30,12 @@ ModelFigures even_figures(const RegionModel& model);
 /// the part that all of them share alike. Their sum is 2^kMassBits.
 void set_strata(std::span<const double> weight, double even_part, std::uint32_t* mass);
 
-/// The strata of all regions in the form that workers sample from.
-class StrataTable {
+/// Regions and their strata in the form that workers sample from.
+class StrataSampler : public RegionSampler {
   public:
     /// By the probabilities of kStrata strata for each region in turn, of sum 2^kMassBits.
-    explicit StrataTable(std::vector<std::uint32_t> mass) : mass_(std::move(mass)) {}
+    StrataSampler(const RegionModel& model, std::vector<std::uint32_t> mass)
+        : RegionSampler(model), mass_(std::move(mass)) {}
 
     struct Sample {
         Vec3 direction;      ///< unit
@@ -43,10 +45,14 @@ class StrataTable {
     Sample sample(std::uint32_t region, const Draw& random) const;
     float pdf(std::uint32_t region, std::uint32_t code) const;
 
-    static std::uint32_t cell(std::uint32_t region, std::uint32_t code);
-    static std::uint32_t cell_side();
+    // Where records go: CellAccumulator.
     std::uint32_t cell_count() const { return static_cast<std::uint32_t>(mass_.size()); }
-    std::size_t bytes() const { return mass_.size() * sizeof(mass_[0]); }
+    static std::uint32_t cell(std::uint32_t region, std::uint32_t code);
+    static std::uint32_t cell_side(std::uint32_t region = 0, std::uint32_t code = 0);
+    void prefetch_pdf(std::uint32_t, std::uint32_t) const {}
+    void prefetch_pdf_cell(std::uint32_t, std::uint32_t) const {}
+
+    std::size_t bytes() const { return region_bytes() + mass_.size() * sizeof(mass_[0]); }
 
   private:
     std::vector<std::uint32_t> mass_;

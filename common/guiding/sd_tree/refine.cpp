@@ -86,14 +86,14 @@ class TreeRefiner {
     std::uint32_t split(const RefinedDistribution& region, double weight, int depth) {
         const auto index = add_node();
         if (weight > settings_.spatial_threshold) {
-            const bool room = result_.cell_depth.size() + region.directions.depth.size() < kMaxCells;
-            if (depth < kMaxSpatialDepth && room) {
+            const bool has_free_cells = result_.cell_depth.size() + region.directions.depth.size() < kMaxCells;
+            if (depth < kMaxSpatialDepth && has_free_cells) {
                 const std::uint32_t low = split(region, weight / 2, depth + 1);
                 const std::uint32_t high = split(region, weight / 2, depth + 1);
                 result_.nodes[index] = {{low, high}};
                 return index;
             }
-            ++(room ? report_.spatial_depth_capped : report_.memory_capped);
+            ++(has_free_cells ? report_.spatial_depth_capped : report_.memory_capped);
         }
         report_.spatial_depth = std::max(report_.spatial_depth, depth);
         result_.nodes[index] = {{0, result_.region_count()}};

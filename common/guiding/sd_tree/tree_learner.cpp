@@ -9,11 +9,8 @@ SdTree TreeLearner::learn(const SdTree& tree, const CellSums& sums, const Refine
     const bool learn_views = learn_mixture && tree.view_count() != 0;
     if (learn_views) advice = views_.judge(tree, sums, settings.last_update);
     SdTree next = refine(tree, sums, settings, report, advice);
-    if (!tree.light_probabilities.empty()) lights_.learn(tree, sums, report.origins, next);
-    if (tree.decides_next_event()) next_event_.learn(tree, sums, settings, report, next);
-    if (!learn_mixture) return next;
-    mixture_.learn(tree, sums, report.origins, next);
-    if (learn_views) views_.hand_down(report.view_origins, next);
+    regions_.learn(tree, sums, settings, learn_mixture, report, next);
+    if (learn_views) views_.set_fractions(report.view_origins, next);
     return next;
 }
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/guiding/regions/light_probabilities.h"
-#include "common/guiding/regions/mixture.h"
-#include "common/guiding/regions/next_event.h"
+#include "common/guiding/regions/region_learner.h"
 #include "common/guiding/sd_tree/refine.h"
 #include "common/guiding/sd_tree/view_mixture.h"
 
@@ -20,13 +18,11 @@ class TreeLearner {
     /// Lists what it remembers, for a checkpoint.
     template <class Archive>
     void serialize(Archive& archive) {
-        archive(lights_, next_event_, mixture_, views_);
+        archive(regions_, views_);
     }
 
   private:
-    LightLearner lights_;
-    NextEventLearner next_event_;
-    MixtureLearner mixture_;
+    RegionLearner regions_;
     ViewLearner views_;
 };
 

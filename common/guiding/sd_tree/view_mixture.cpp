@@ -45,7 +45,7 @@ std::vector<ViewAdvice> ViewLearner::judge(const SdTree& tree, const CellSums& s
         double fresh = 0;
         for (std::size_t b = 0; b < kMixtureBins; ++b) {
             const double h = std::ldexp(static_cast<double>(bins[b]), tree.quantum_exponent[distribution]);
-            evidence.histogram[b] = kPolicy.learning.kept_evidence * evidence.histogram[b] + h;
+            evidence.histogram[b] = kKeptEvidence * evidence.histogram[b] + h;
             fresh += h;
         }
         const auto records = static_cast<double>(sums.counts()[distribution]);
@@ -53,22 +53,22 @@ std::vector<ViewAdvice> ViewLearner::judge(const SdTree& tree, const CellSums& s
         const double prior = 1.0 - static_cast<double>(tree.view_fraction[v]);
         if (mean_record > 0)
             evidence.others =
-                best_bsdf_fraction(evidence.histogram, prior, kPolicy.learning.mixture_prior_records * mean_record);
+                best_bsdf_fraction(evidence.histogram, prior, tuned("learning.mixture_prior_records") * mean_record);
         const double gain = std::max(0.0, view_gain(evidence.histogram, evidence.others));
-        idle[v] = 1.0 - evidence.others < kPolicy.learning.idle_fraction || gain < kPolicy.learning.least_view_gain;
+        idle[v] = 1.0 - evidence.others < tuned("learning.idle_fraction") || gain < tuned("learning.least_view_gain");
         advice[v].gain = records * gain;
         if (!idle[v]) gain_of_all += advice[v].gain;
     }
-    const bool all_idle = gain_of_all < kPolicy.learning.least_view_gain_of_all * all_records;
+    const bool all_idle = gain_of_all < tuned("learning.least_view_gain_of_all") * all_records;
     for (std::uint32_t v = 0; v < views; ++v) {
         int& idle_passes = views_[v].idle_passes;
         idle_passes = idle[v] || all_idle ? idle_passes + 1 : 0;
-        advice[v].keep = idle_passes < (last_update ? 1 : kPolicy.learning.idle_passes);
+        advice[v].keep = idle_passes < (last_update ? 1 : tuned<int>("learning.idle_passes"));
     }
     return advice;
 }
 
-void ViewLearner::hand_down(std::span<const ViewOrigin> origins, SdTree& next) {
+void ViewLearner::set_fractions(std::span<const ViewOrigin> origins, SdTree& next) {
     std::vector<Evidence> inherited;
     inherited.reserve(origins.size());
     for (std::size_t v = 0; v < origins.size(); ++v) {

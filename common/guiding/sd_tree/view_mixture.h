@@ -27,7 +27,7 @@ class ViewLearner {
     /// chance, but for the `last_update`.
     std::vector<ViewAdvice> judge(const SdTree& tree, const CellSums& sums, bool last_update);
     /// Sets the fractions of the refined tree's views. `origins` as in RefineReport.
-    void hand_down(std::span<const ViewOrigin> origins, SdTree& next);
+    void set_fractions(std::span<const ViewOrigin> origins, SdTree& next);
 
     /// Lists what it remembers, for a checkpoint.
     template <class Archive>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/plan/effects/effect_table.h"
 
-#include <utility>
 #include <vector>
 
 #include "common/config/effect_switches.h"

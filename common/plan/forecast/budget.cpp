@@ -12,6 +12,10 @@ namespace treefarm {
 namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+// Shares of the tolerance.
+constexpr double kLeastLeft = 0.25;    ///< no pass begins where less time is left
+constexpr double kWorthHedging = 0.5;  ///< an ending pass takes all the time left where hedging would leave less
+constexpr double kMostLate = 0.75;     ///< by less than this, and than the time left, the shortest pass may end late
 
 class OpenBudget {
   public:
@@ -36,11 +40,11 @@ class OpenBudget {
         if (wanted < least_spp()) return {};
         const double doubled = std::ldexp(job_.guiding.spp_unit, static_cast<int>(index));
         const auto total = static_cast<std::uint32_t>(done + wanted);
-        if (!memory_.ending && !memory_.probed && wanted >= kPolicy.schedule.teaching_share * doubled)
+        if (!memory_.ending && !memory_.probed && wanted >= tuned("schedule.teaching_share") * doubled)
             return {make_pass(job_, index, done, static_cast<std::uint32_t>(doubled), false), total, 0};
         if (needs_probe(state)) {
             memory_.probed = true;
-            const auto spp = static_cast<std::uint32_t>(std::max(1.0, kPolicy.budget.probe * by_time(state, 1.0)));
+            const auto spp = static_cast<std::uint32_t>(std::max(1.0, tuned("budget.probe") * by_time(state, 1.0)));
             return {make_pass(job_, index, done, spp, true), total, 0};
         }
         const double hedged = std::min(others, by_time(state, hedge(state)));
@@ -58,13 +62,13 @@ class OpenBudget {
     double least_spp() const {
         const bool by_variance =
             job_.guides && job_.guiding.combination == Combination::inverse_variance && !job_.budget.strict;
-        return by_variance ? kPolicy.schedule.least_weighed_spp : 1.0;
+        return by_variance ? tuned<std::uint32_t>("schedule.least_weighed_spp") : 1.0;
     }
 
     double tolerance() const {
         const double seconds = job_.budget.seconds;
-        return std::max(kPolicy.budget.time_tolerance * seconds,
-                        std::min(kPolicy.budget.least_tolerance, kPolicy.budget.most_tolerance * seconds));
+        return std::max(tuned("budget.time_tolerance") * seconds,
+                        std::min(tuned("budget.least_tolerance"), tuned("budget.most_tolerance") * seconds));
     }
 
     /// Seconds that an ending pass of so many samples per pixel is expected to take.
@@ -77,26 +81,25 @@ class OpenBudget {
     bool needs_probe(const RenderHistory& state) const {
         const double left = job_.budget.seconds - state.seconds;
         return job_.budget.strict && job_.budget.seconds > 0 && !memory_.probed && outlook_->learning() &&
-               seconds_of_pass(1) < 2 * kPolicy.budget.probe * left;
+               seconds_of_pass(1) < 2 * tuned("budget.probe") * left;
     }
 
     double hedge(const RenderHistory& state) const {
-        const double uncertain = (1 - kPolicy.budget.hedge) * (job_.budget.seconds - state.seconds);
-        const double worthwhile =
-            std::max(kPolicy.budget.worth_hedging * tolerance(), seconds_of_pass(2 * least_spp()));
-        return job_.budget.strict || uncertain < worthwhile ? 1.0 : kPolicy.budget.hedge;
+        const double uncertain = (1 - tuned("budget.hedge")) * (job_.budget.seconds - state.seconds);
+        const double worthwhile = std::max(kWorthHedging * tolerance(), seconds_of_pass(2 * least_spp()));
+        return job_.budget.strict || uncertain < worthwhile ? 1.0 : tuned("budget.hedge");
     }
 
     /// Samples that a pass can have which takes this share of the time left.
     double by_time(const RenderHistory& state, double fraction) const {
         if (job_.budget.seconds == 0) return kUnlimited;
         const double left = job_.budget.seconds - state.seconds;
-        if (left < kPolicy.budget.least_left * tolerance()) return 0;
+        if (left < kLeastLeft * tolerance()) return 0;
         const double of_one = seconds_of_pass(1) - seconds_of_pass(0);
         const double spp = std::floor(std::max(0.0, fraction * left - seconds_of_pass(0)) / of_one);
         // The shortest pass may be a little too long: that may still be nearer to the budget than to stop here.
         const double too_long = seconds_of_pass(least_spp()) - left;
-        return too_long < std::min(left, kPolicy.budget.most_late * tolerance()) ? std::max(spp, least_spp()) : spp;
+        return too_long < std::min(left, kMostLate * tolerance()) ? std::max(spp, least_spp()) : spp;
     }
 
     /// Samples that are still needed for the target.
@@ -105,14 +108,15 @@ class OpenBudget {
         const ErrorEstimate& error = state.error;
         const std::uint32_t done = state.spp();
         if (target == 0 || !error.known ||
-            done < (error.rmse > 0 ? kPolicy.budget.spp_to_believe : kPolicy.budget.spp_to_believe_zero))
+            done < (error.rmse > 0 ? tuned<std::uint32_t>("budget.spp_to_believe")
+                                   : tuned<std::uint32_t>("budget.spp_to_believe_zero")))
             return kUnlimited;
         if (error.relative() <= target && !job_.budget.strict) return 0;
         if (!outlook_->knows_variance()) return kUnlimited;
         const double rmse = target * error.mean;
         const double variance = ending_variance(*outlook_, job_, outlook_->learning() ? 1 : 0);
         const double needed = std::ceil(spp_to_reach(state, job_, rmse * rmse, variance) * ending_margin(job_));
-        return job_.budget.strict ? needed : std::max({needed, least_spp(), kPolicy.budget.least_share * done});
+        return job_.budget.strict ? needed : std::max({needed, least_spp(), tuned("budget.least_share") * done});
     }
 
     const Resolved& job_;

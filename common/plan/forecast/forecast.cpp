@@ -70,8 +70,8 @@ void add_teaching_pass(RenderHistory& state, const Resolved& job, std::uint32_t 
 
 Trust trust_in(const RenderHistory& state, const Outlook& outlook) {
     const ErrorEstimate& error = state.error;
-    if (!error.has_interval || error.high - error.low > 2 * kPolicy.forecast.noisy * error.rmse) return Trust::noisy;
-    const bool settled = outlook.recent_progress() >= kPolicy.forecast.learned;
+    if (!error.has_interval || error.high - error.low > 2 * tuned("forecast.noisy") * error.rmse) return Trust::noisy;
+    const bool settled = outlook.recent_progress() >= tuned("forecast.learned");
     return settled || !outlook.learning() ? Trust::firm : Trust::learning;
 }
 
@@ -82,7 +82,7 @@ bool shows_last_tree_only(const Resolved& job) {
 }
 
 double ending_margin(const Resolved& job) {
-    return job.budget.strict ? kPolicy.budget.strict_error_margin : kPolicy.budget.error_margin;
+    return job.budget.strict ? tuned("budget.strict_error_margin") : tuned("budget.error_margin");
 }
 
 double ending_variance(const Outlook& outlook, const Resolved& job, int trees) {
@@ -98,7 +98,7 @@ double spp_to_reach(const RenderHistory& state, const Resolved& job, double mse,
     if (now <= mse) return 0;
     if (!(mse > 0)) return kUnknown;
     if (weighs_by_variance(job))
-        return std::max<double>(variance * (1 / mse - 1 / now), kPolicy.schedule.least_weighed_spp);
+        return std::max<double>(variance * (1 / mse - 1 / now), tuned<std::uint32_t>("schedule.least_weighed_spp"));
     const std::uint32_t done = state.spp();
     if (!is_guided(job)) return done * (now / mse - 1);  // all samples are alike: the image knows their variance best
     return solve_fixed(sum_of_fixed_weights(state, true), now, fixed_weight(1, done, true), variance, mse);
@@ -125,10 +125,10 @@ ErrorForecast forecast_error(const RenderHistory& state, const Resolved& job, do
         const double wanted = std::ceil(spp_to_reach(future, job, mse, variance)) * margin;
         const double doubled = std::ldexp(job.guiding.spp_unit, static_cast<int>(future.passes.size()));
         seconds += outlook.overhead_seconds();
-        if (!outlook.learning() || wanted < kPolicy.schedule.teaching_share * doubled || trees >= kMostTrees) {
+        if (!outlook.learning() || wanted < tuned("schedule.teaching_share") * doubled || trees >= kMostTrees) {
             forecast.spp = future.spp() - state.spp() + wanted;
             forecast.seconds = seconds + wanted * outlook.seconds_per_spp(trees, false);
-            if (forecast.trust == Trust::firm && forecast.spp > kPolicy.forecast.far * state.spp())
+            if (forecast.trust == Trust::firm && forecast.spp > tuned("forecast.far") * state.spp())
                 forecast.trust = Trust::noisy;
             return forecast;
         }

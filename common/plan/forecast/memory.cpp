@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
-#include "common/base/policy.h"
 #include "common/base/text/parse_text.h"
 #include "common/config/aov_list.h"
 #include "common/film/fold_passes.h"
@@ -77,15 +75,14 @@ struct LightParts {
     std::uint64_t cut_triangles = 0;  ///< of meshes in patches
 };
 LightParts light_parts(const Scene& scene) {
-    constexpr std::uint64_t kPatchTriangles = 8, kMostPatches = 128, kImageParts = 8;
+    constexpr std::uint64_t kFewTriangles = 16, kPatchTriangles = 8, kMostPatches = 128, kImageParts = 8;
     LightParts parts;
     for (const Emitter& emitter : scene.emitters) {
         std::uint64_t count = 1;
         for_each_image(emitter, [&](std::int32_t) { count = kImageParts; });
         if (const auto* area = std::get_if<AreaEmitter>(&emitter.kind); area && area->shape != kNone) {
             const auto* mesh = std::get_if<Mesh>(&scene.shapes[static_cast<std::size_t>(area->shape)].geometry);
-            if (const std::uint64_t triangles = mesh ? mesh->triangle_count() : 0;
-                triangles > kPolicy.lights.few_triangles) {
+            if (const std::uint64_t triangles = mesh ? mesh->triangle_count() : 0; triangles > kFewTriangles) {
                 count = std::min(triangles / kPatchTriangles, kMostPatches);
                 parts.cut_triangles += triangles;
             }

@@ -43,7 +43,8 @@ std::vector<TreeFacts> trees_of(const RenderHistory& state) {
             tree.samples_times_variance += pass.spp * pass.mse_of_sample;
             tree.samples_times_trimmed += pass.spp * pass.stuv_trimmed;
         }
-        tree.trace_core_seconds += pass.trace_core_seconds * (pass.record ? 1 - kPolicy.forecast.recording_share : 1.0);
+        tree.trace_core_seconds +=
+            pass.trace_core_seconds * (pass.record ? 1 - tuned("forecast.recording_share") : 1.0);
         fresh = pass.record;
     }
     return trees;
@@ -122,9 +123,9 @@ void Outlook::look_at_variance(const RenderHistory& state) {
     if (levels.empty()) return;
     variance_ = levels.back().variance;
     quiet_ = !(variance_ > 0);
-    const bool at_rest = levels.back().trees >= kPolicy.forecast.trees_at_rest;
+    const bool at_rest = levels.back().trees >= tuned<int>("forecast.trees_at_rest");
     if (!at_rest && levels.size() > 1)
-        progress_ = std::max(kPolicy.forecast.least_progress, variance_ / levels[levels.size() - 2].variance);
+        progress_ = std::max(tuned("forecast.least_progress"), variance_ / levels[levels.size() - 2].variance);
     else if (at_rest || levels.back().trees > 1)
         progress_ = 1;
     trees_since_ = levels.back().trees - 1;
@@ -154,8 +155,8 @@ void Outlook::look_at_cost(const RenderHistory& state) {
     if (trees.size() < 3) return;
     const TreeFacts& before = trees[trees.size() - 2];
     if (before.core_per_spp() > 0 && before.next_event == trees.back().next_event)
-        cost_ratio_ = std::clamp(traced / before.core_per_spp(), 1 / kPolicy.forecast.most_cost_ratio,
-                                 kPolicy.forecast.most_cost_ratio);
+        cost_ratio_ = std::clamp(traced / before.core_per_spp(), 1 / tuned("forecast.most_cost_ratio"),
+                                 tuned("forecast.most_cost_ratio"));
 }
 
 namespace {
@@ -170,13 +171,13 @@ double fading_steps(double step, double fading, int trees) {
 
 double Outlook::variance_after(int trees) const {
     if (!(progress_ > 0)) return variance_;
-    return variance_ * fading_steps(std::pow(progress_, std::pow(kPolicy.forecast.fading, trees_since_)),
-                                    kPolicy.forecast.fading, trees);
+    return variance_ * fading_steps(std::pow(progress_, std::pow(tuned("forecast.fading"), trees_since_)),
+                                    tuned("forecast.fading"), trees);
 }
 
 double Outlook::seconds_per_spp(int trees, bool record) const {
     const double core =
-        core_per_spp_ * fading_steps(cost_ratio_, kPolicy.forecast.cost_fading, trees) * (record ? recording_ : 1.0);
+        core_per_spp_ * fading_steps(cost_ratio_, tuned("forecast.cost_fading"), trees) * (record ? recording_ : 1.0);
     return std::max(core * clock_per_core_, kShortestSample);
 }
 

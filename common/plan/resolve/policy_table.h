@@ -3,32 +3,18 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "common/base/error.h"
 #include "common/config/setting.h"
 
 namespace treefarm {
 
-/// One constant of policy.h, explained.
-struct PolicyEntry {
-    const char* name;  ///< "guiding.giving_up"
-    double value;
-    bool single;           ///< a float: its shortest text is shorter than the double's
-    const char* meaning;   ///< with the unit
-    const char* evidence;  ///< where it comes from: a publication, a section of bench/log, or that it is a guess
-};
-
-/// The value, as resolved.toml and the docs have it.
-std::string value_text(const PolicyEntry& entry);
-
-/// Every constant of policy.h, in its order.
-std::span<const PolicyEntry> policy_table();
-
 /// The section [policy] of resolved.toml.
 std::string write_policy();
 
 /// What its constants begin with among settings: "policy.guiding.giving_up".
-inline constexpr char kPolicyPrefix[] = "policy.";
+inline constexpr std::string_view kPolicyPrefix = "policy.";
 
 /// What to do with a resolved.toml that this build cannot repeat.
 inline constexpr char kResolvedCure[] =

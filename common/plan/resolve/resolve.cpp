@@ -24,7 +24,7 @@ bool chooses_lights(const Scene& scene) {
 /// c of the spatial split rule, in proportion to the fourth root of the film's pixels: more of them bring more records,
 /// but what there is to learn grows more slowly.
 double usual_spatial_threshold(double film_pixels) {
-    return kPolicy.learning.spatial_threshold * std::sqrt(std::sqrt(film_pixels / (512.0 * 512.0)));
+    return tuned("learning.spatial_threshold") * std::sqrt(std::sqrt(film_pixels / (512.0 * 512.0)));
 }
 
 void resolve_rules(Job::Guiding& guiding) {
@@ -112,10 +112,10 @@ Resolved resolve(const Job& job, const SceneFacts& scene) {
     if (resolved.integrator.ao_distance == 0) resolved.integrator.ao_distance = scene.ao_reach;
     const bool by_view = guiding.type == GuidingType::view;
     if (guiding.splitting == 0)
-        guiding.splitting = by_view && guiding.roulette == GuidingRoulette::adjoint ? kPolicy.splitting.usual : 1;
+        guiding.splitting = by_view && guiding.roulette == GuidingRoulette::adjoint ? tuned<int>("splitting.usual") : 1;
     const bool table = guiding.type == GuidingType::qtable;
     if (guiding.grid_halvings == 0)
-        guiding.grid_halvings = table ? kPolicy.grids.table_halvings : kPolicy.grids.halvings;
+        guiding.grid_halvings = table ? 15 : 12;  // cells of a table learn means, which need fewer records
     if (guiding.bootstrap == kUsualBootstrap) guiding.bootstrap = table ? 1.0f : 0.0f;
     if (guiding.spatial_threshold == 0)
         guiding.spatial_threshold = usual_spatial_threshold(static_cast<double>(scene.film_pixels));

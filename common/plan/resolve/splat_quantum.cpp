@@ -5,7 +5,6 @@
 #include <cmath>
 #include <variant>
 
-#include "common/base/policy.h"
 #include "common/film/splat_film.h"
 #include "common/scene/kinds/shape_area.h"
 
@@ -16,6 +15,9 @@ namespace {
 constexpr double kFiner = 0x1p-20;
 /// splat_exponent() has so many of them.
 constexpr double kOfExponent = 0x1p10;
+/// A lamp at the lens is seen from this squared distance at least, over that of the scene; and counts only where it is
+/// more than kAlike times as bright as from the scene's distance.
+constexpr double kNearest = 0x1p-16, kAlike = 16.0;
 
 /// Camera importance at the middle of the film, per area that faces the camera at this distance.
 double importance(const Camera& camera, double distance2) {
@@ -78,8 +80,8 @@ std::int16_t usual_splat_exponent(const Scene& scene) {
                               static_cast<double>(scene.film.pixel_count());
     // A lamp at the lens may light what is far: so near a one is not believed. A coarser quantum is only needed where
     // splats would come near its caps, 2^30 times the usual one; what is left of these is for rare paths.
-    const double power = std::max(power_seen(scene, radius2, distance2, 1.0),
-                                  power_seen(scene, radius2, distance2, kPolicy.splats.nearest) / kPolicy.splats.alike);
+    const double power =
+        std::max(power_seen(scene, radius2, distance2, 1.0), power_seen(scene, radius2, distance2, kNearest) / kAlike);
     const double splat = power / (2 * M_PI) * per_window;
     return splat_exponent(splat * kFiner * kOfExponent);
 }

@@ -12,21 +12,23 @@ namespace {
 
 /// The worth below which guiding is given up: lower after short passes, whose trees still get much better.
 double bar(std::uint32_t spp) {
-    constexpr const auto& kOf = kPolicy.guiding;
-    const double settled = std::log2(static_cast<double>(spp) / kOf.least_settled_spp) /
-                           std::log2(static_cast<double>(kOf.settled_spp) / kOf.least_settled_spp);
-    return std::lerp(kOf.giving_up_early, kOf.giving_up, std::clamp(settled, 0.0, 1.0));
+    const double settled = std::log2(static_cast<double>(spp) / tuned<std::uint32_t>("guiding.least_settled_spp")) /
+                           std::log2(static_cast<double>(tuned<std::uint32_t>("guiding.settled_spp")) /
+                                     tuned<std::uint32_t>("guiding.least_settled_spp"));
+    return std::lerp(tuned("guiding.giving_up_early"), tuned("guiding.giving_up"), std::clamp(settled, 0.0, 1.0));
 }
 
 }  // namespace
 
-Guiding judge_guiding(const PassPlan& pass, const GuidingWorth& worth, const GuidingWorth& before, double mistrust) {
-    constexpr const auto& kOf = kPolicy.guiding;
-    if (!(worth.worth > 0) || pass.spp < kOf.least_judged_spp || worth.known < kOf.least_known) return Guiding::open;
-    const bool comparable = before.worth > 0 && before.known >= kOf.least_known;
-    const double growth = comparable ? worth.worth / before.worth : 1.0;
-    const double next = worth.worth * std::max(growth, 1.0);
-    const double most = next * mistrust * std::exp(kOf.giving_up_errors * worth.error);
+Guiding judge_guiding(const PassPlan& pass, const GuidingEfficiency& efficiency, const GuidingEfficiency& before,
+                      double mistrust) {
+    if (!(efficiency.efficiency > 0) || pass.spp < tuned<std::uint32_t>("guiding.least_judged_spp") ||
+        efficiency.known < tuned("guiding.least_known"))
+        return Guiding::open;
+    const bool comparable = before.efficiency > 0 && before.known >= tuned("guiding.least_known");
+    const double growth = comparable ? efficiency.efficiency / before.efficiency : 1.0;
+    const double next = efficiency.efficiency * std::max(growth, 1.0);
+    const double most = next * mistrust * std::exp(tuned("guiding.giving_up_errors") * efficiency.error);
     return most < bar(pass.spp) ? Guiding::loses : Guiding::open;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/film/guiding_worth.h"
+#include "common/film/guiding_efficiency.h"
 #include "common/plan/schedule/schedule.h"
 
 namespace treefarm {
@@ -11,6 +11,7 @@ namespace treefarm {
 /// most its cost, while unguided paths may lose without bound. A tree that is worth more than `before`, what is known
 /// of the tree before it, is judged as the next one, which should be worth as much more again. The trees of short
 /// passes get better in any case, so those have to say more loudly that guiding loses.
-Guiding judge_guiding(const PassPlan& pass, const GuidingWorth& worth, const GuidingWorth& before, double mistrust);
+Guiding judge_guiding(const PassPlan& pass, const GuidingEfficiency& efficiency, const GuidingEfficiency& before,
+                      double mistrust);
 
 }  // namespace treefarm

@@ -59,11 +59,11 @@ RefineSettings refine_settings(const Resolved& job, const PassPlan& pass, const 
     settings.view_threshold = split_growth(job, coming) * job.guiding.view_threshold;
     settings.last_update = coming.last_tree;
     settings.views_record_alone = job.guiding.view_records == ViewRecords::radiance;
-    if (job.cells_follow_use) settings.least_use = kPolicy.learning.least_use;
+    if (job.cells_follow_use) settings.least_use = tuned("learning.least_use");
     if (job.guiding.view_records == ViewRecords::product) {
         settings.view_set_threshold = settings.view_threshold;
-        settings.least_view_cells = kPolicy.learning.free_cells;
-        settings.view_cells = kPolicy.learning.product_cells;
+        settings.least_view_cells = tuned("learning.free_cells");
+        settings.view_cells = tuned("learning.product_cells");
     }
     return settings;
 }

@@ -12,13 +12,17 @@
 namespace treefarm {
 namespace {
 
+constexpr std::uint32_t kSamplesPerUnit = 1u
+                                          << 18;  ///< at most: around half a second of a core; any gives the same bits
+constexpr std::uint32_t kGuessedSpp = 64;         ///< by which an open budget is planned
+
 void cut_into_units(PassPlan& pass, int tile_size) {
     const std::uint32_t blocks = (pass.spp + kBlockSamples - 1) / kBlockSamples;
     const auto tile_samples =
         static_cast<std::uint32_t>(tile_size) * static_cast<std::uint32_t>(tile_size) * kBlockSamples;
     // Any cut gives the same bits; only aligned runs of 2^j blocks are whole subtrees of the reduction.
-    pass.blocks_per_unit = std::clamp(std::bit_floor(std::max(kPolicy.schedule.samples_per_unit / tile_samples, 1u)),
-                                      1u, std::bit_ceil(blocks));
+    pass.blocks_per_unit =
+        std::clamp(std::bit_floor(std::max(kSamplesPerUnit / tile_samples, 1u)), 1u, std::bit_ceil(blocks));
     pass.chunks = (blocks + pass.blocks_per_unit - 1) / pass.blocks_per_unit;
 }
 
@@ -38,7 +42,7 @@ std::vector<WorkUnit> cut_pass(const PassPlan& pass, int width, int height, int 
 void set_next_event(PassPlan& pass, const Resolved& job, bool next_event) {
     pass.next_event = next_event;
     const bool kickstart = next_event && job.integrator.next_event == NextEvent::kickstart;
-    pass.record_weight = kickstart ? kPolicy.schedule.kickstart_weight : 1.0;
+    pass.record_weight = kickstart ? tuned("schedule.kickstart_weight") : 1.0;
 }
 
 void set_record(PassPlan& pass, const Resolved& job, bool record) {
@@ -59,13 +63,14 @@ void set_splitting(PassPlan& pass, const Resolved& job, bool pays) {
 }
 
 bool splitting_may_pay(const PassPlan& pass, const SplittingGain& gain) {
-    if (pass.spp < kPolicy.splitting.least_spp || gain.variance == 0 || gain.found < kPolicy.splitting.least_found)
+    if (pass.spp < tuned<std::uint32_t>("splitting.least_spp") || gain.variance == 0 ||
+        gain.mean_ratio < tuned("splitting.least_found"))
         return true;
-    if (gain.variance < kPolicy.splitting.least_quietened) return false;
-    if (!pass.next_event) return gain.variance >= kPolicy.splitting.least_gain_alone * gain.rays;
-    const double quieter = 1 + (gain.variance - 1) / kPolicy.splitting.shown_gain,
-                 slower = 1 + (gain.rays - 1) * kPolicy.splitting.copy_ray_cost;
-    return quieter >= kPolicy.splitting.least_gain * slower;
+    if (gain.variance < tuned("splitting.least_quietened")) return false;
+    if (!pass.next_event) return gain.variance >= tuned("splitting.least_gain_alone") * gain.rays;
+    const double quieter = 1 + (gain.variance - 1) / tuned("splitting.shown_gain"),
+                 slower = 1 + (gain.rays - 1) * tuned("splitting.copy_ray_cost");
+    return quieter >= tuned("splitting.least_gain") * slower;
 }
 
 void set_light_subpaths(PassPlan& pass, const Resolved& job, bool pays) {
@@ -75,8 +80,9 @@ void set_light_subpaths(PassPlan& pass, const Resolved& job, bool pays) {
 }
 
 bool light_subpaths_may_pay(const PassPlan& pass, const LightSubpathGain& gain) {
-    if (pass.spp < kPolicy.light_subpaths.least_spp || gain.noise == 0) return true;
-    return gain.found < kPolicy.light_subpaths.least_found || gain.at_equal_cost() >= kPolicy.light_subpaths.least_gain;
+    if (pass.spp < tuned<std::uint32_t>("light_subpaths.least_spp") || gain.noise == 0) return true;
+    return gain.mean_ratio < tuned("light_subpaths.least_found") ||
+           gain.at_equal_cost() >= tuned("light_subpaths.least_gain");
 }
 
 PassPlan make_pass(const Resolved& job, std::uint32_t index, std::uint32_t first_sample, std::uint32_t spp, bool last) {
@@ -85,8 +91,8 @@ PassPlan make_pass(const Resolved& job, std::uint32_t index, std::uint32_t first
     pass.spp = spp;
     pass.first_sample = first_sample;
     pass.guided = job.guides;
-    const bool kickstart =
-        job.integrator.next_event == NextEvent::kickstart && first_sample < kPolicy.schedule.kickstart_spp;
+    const bool kickstart = job.integrator.next_event == NextEvent::kickstart &&
+                           first_sample < tuned<std::uint32_t>("schedule.kickstart_spp");
     set_next_event(pass, job, kickstart || job.integrator.next_event == NextEvent::always || job.decides_next_event);
     const bool is_long = spp >= static_cast<std::uint32_t>(job.guiding.initial_model_spp);
     set_record(pass, job, job.guides && !last && is_long);
@@ -108,8 +114,7 @@ std::uint32_t next_units(std::uint32_t index, std::uint32_t remaining) {
 
 std::vector<PassPlan> plan_passes(const Resolved& job) {
     const auto unit = static_cast<std::uint32_t>(job.guiding.spp_unit);
-    const std::uint32_t spp =
-        has_open_budget(job) ? std::max(job.budget.spp, kPolicy.schedule.guessed_spp) : job.budget.spp;
+    const std::uint32_t spp = has_open_budget(job) ? std::max(job.budget.spp, kGuessedSpp) : job.budget.spp;
     std::uint32_t remaining = (spp + unit - 1) / unit;  // in units
     std::vector<PassPlan> passes;
     std::uint32_t done = 0;

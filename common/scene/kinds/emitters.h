@@ -3,7 +3,6 @@
 
 #include <concepts>
 #include <type_traits>
-#include <utility>
 #include <variant>
 
 #include "common/scene/kinds/emitters/area.h"

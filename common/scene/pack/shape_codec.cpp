@@ -13,8 +13,8 @@ constexpr std::uint8_t kMeshWithAttributes = 5;
 std::uint8_t number_of(const ShapeKind& kind) {
     const auto* mesh = std::get_if<Mesh>(&kind);
     if (mesh && !mesh->attributes.empty()) return kMeshWithAttributes;
-    const auto place = static_cast<std::uint8_t>(kind.index());
-    return static_cast<std::uint8_t>(place < kMeshWithAttributes ? place : place + 1);
+    const auto number = static_cast<std::uint8_t>(kind.index());
+    return static_cast<std::uint8_t>(number < kMeshWithAttributes ? number : number + 1);
 }
 
 ShapeKind kind_of_number(std::uint8_t number) {

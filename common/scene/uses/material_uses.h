@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-
 #include "common/scene/kinds/fields.h"
 #include "common/scene/model/material.h"
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <concepts>
-#include <cstdint>
 
 #include "common/scene/model/texture.h"
 

@@ -41,7 +41,7 @@ constexpr double kFarSizes = 64.0;
 /// A shape that the camera stands at, however far from the origin it is, counted from where a render moves the scene:
 /// the positions on it are blurred, and rays that start in a corner may do so behind the other wall. Per size
 /// of distance about 2^-25 of the diffuse rays leave (bench/log/scenes.md, "do closed rooms leak").
-void lint_room(const Scene& scene, const Imath::V3d& origin, std::vector<Finding>& findings) {
+void lint_camera_surroundings(const Scene& scene, const Imath::V3d& origin, std::vector<Finding>& findings) {
     const Imath::V3d camera(scene.camera.origin);
     const Shape* worst = nullptr;
     double sizes = kFarSizes, farthest = 0;
@@ -94,7 +94,7 @@ void lint_scale(const Scene& scene, std::vector<Finding>& findings) {
                 " of its sizes away from the origin: coordinates that its mesh files hold there are blurred by " +
                 short_number(middle.length() * 0x1p-24) + " units",
             "a render moves it to the origin; so should its files");
-    lint_room(scene, middle.length() > kFarSizes * extent ? middle : Imath::V3d(0.0), findings);
+    lint_camera_surroundings(scene, middle.length() > kFarSizes * extent ? middle : Imath::V3d(0.0), findings);
     if (extent < 1e-3 || extent > 1e6)
         add(note, "scale", "the scene is " + short_number(extent) + " units large",
             "choose units in which rooms are 1 to 1000");

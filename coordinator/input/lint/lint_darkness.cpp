@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "common/scene/uses/emitter_uses.h"
 #include "common/scene/uses/material_traits.h"

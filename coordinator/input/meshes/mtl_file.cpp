@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/input/meshes/mtl_file.h"
 
-#include <cmath>
-
 #include "common/base/text/parse_text.h"
 #include "coordinator/input/meshes/input_file.h"
 #include "coordinator/input/meshes/obj_scanner.h"

@@ -2,7 +2,6 @@
 #include "coordinator/input/meshes/serialized_file.h"
 
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <limits>
 

@@ -20,7 +20,7 @@ Mesh read_ply_mesh(Properties& properties, Diagnostics& diagnostics) {
     properties.ignore({"srgb"});  // of colours, which 0.6 alone has
     Mesh mesh = read_ply(options.file, properties.where("filename"));
     require_triangles(mesh, options.file);
-    place_mesh(mesh, options, properties.where(), diagnostics);
+    transform_mesh(mesh, options, properties.where(), diagnostics);
     return mesh;
 }
 
@@ -33,7 +33,7 @@ Mesh read_serialized_mesh(Properties& properties, Diagnostics& diagnostics) {
     Mesh mesh = read_serialized(options.file, index,
                                 properties.where(properties.has("shape_index") ? "shape_index" : "filename"));
     require_triangles(mesh, options.file);
-    place_mesh(mesh, options, properties.where(), diagnostics);
+    transform_mesh(mesh, options, properties.where(), diagnostics);
     return mesh;
 }
 

@@ -36,7 +36,7 @@ MeshOptions read_mesh_options(Properties& properties, bool flip_tex_coords) {
     return options;
 }
 
-void place_mesh(Mesh& mesh, const MeshOptions& options, const Location& where, Diagnostics& diagnostics) {
+void transform_mesh(Mesh& mesh, const MeshOptions& options, const Location& where, Diagnostics& diagnostics) {
     const std::size_t without = mesh.normals.empty() ? mesh.positions.size() : count_zeros(mesh.normals);
     for (Vec3& position : mesh.positions)
         position = transform_point(options.to_world, position);

@@ -25,6 +25,6 @@ MeshOptions read_mesh_options(Properties& properties, bool flip_tex_coords);
 
 /// Brings a mesh in object space, its normals as written or none, into the world: computes the normals that are
 /// missing, and turns triangles so that their front is where the normals point.
-void place_mesh(Mesh& mesh, const MeshOptions& options, const Location& where, Diagnostics& diagnostics);
+void transform_mesh(Mesh& mesh, const MeshOptions& options, const Location& where, Diagnostics& diagnostics);
 
 }  // namespace treefarm::mitsuba

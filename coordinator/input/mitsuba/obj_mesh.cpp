@@ -153,7 +153,7 @@ std::vector<ObjPart> read_obj_parts(Properties& properties, MaterialReader& mate
     const CornerMerger merger(obj, !options.face_normals, separate_groups);
     for (std::size_t i = 0; i < parts.size(); ++i) {
         parts[i].mesh = merger.merge(corners[i]);
-        place_mesh(parts[i].mesh, options, properties.where(), diagnostics);
+        transform_mesh(parts[i].mesh, options, properties.where(), diagnostics);
     }
     return parts;
 }

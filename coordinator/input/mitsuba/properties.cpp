@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include "common/base/text/parse_text.h"
 #include "coordinator/input/mitsuba/values.h"

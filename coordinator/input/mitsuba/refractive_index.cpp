@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/input/mitsuba/refractive_index.h"
 
-#include <algorithm>
 #include <array>
 
 #include "common/base/text/parse_text.h"

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <optional>
-#include <variant>
 
 #include "common/scene/model/scene.h"
 #include "coordinator/input/mitsuba/properties.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/input/mitsuba/texture_reader.h"
 
-#include <cmath>
 #include <iterator>
 #include <span>
 

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "common/base/text/parse_text.h"
 #include "coordinator/input/mitsuba/values.h"
 
 namespace treefarm::mitsuba {

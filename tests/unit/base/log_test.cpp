@@ -6,24 +6,16 @@
 
 #include <chrono>
 #include <csignal>
-#include <fstream>
 #include <future>
-#include <sstream>
 #include <thread>
 
 #include "common/base/text/printable.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
 
 ConsolePtr silent() {
     return std::make_shared<Console>(TerminalKind{}, false);
@@ -46,10 +38,10 @@ TEST(Printable, KeepsTextAndReplacesWhatSteersTerminals) {
 TEST(Log, ALineIsALine) {
     const fs::path file = fs::path(testing::TempDir()) / "log_test.txt";
     fs::remove(file);
-    Log log = make_log("treefarm", file, silent(), Loudness::quiet);
+    Log log = make_log("treefarm", file, silent(), Verbosity::quiet);
     log->info("results in {}", "runs/a\n2026-01-01 treefarm error: forged\x1b[2J");
     log.reset();  // all is written then
-    const std::string text = read(file);
+    const std::string text = test::read_file(file);
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
     EXPECT_EQ(text.find('\x1b'), std::string::npos);
     EXPECT_NE(text.find("treefarm info: results in runs/a?2026"), std::string::npos) << text;
@@ -58,16 +50,16 @@ TEST(Log, ALineIsALine) {
 TEST(Log, GoesOnInAFileThatWasRemoved) {
     const fs::path folder = fs::path(testing::TempDir()) / "log_test_folder", file = folder / "log.txt";
     fs::create_directories(folder);
-    Log log = make_log("treefarm", file, silent(), Loudness::quiet);
+    Log log = make_log("treefarm", file, silent(), Verbosity::quiet);
     log->info("one");
-    while (read(file).find("one") == std::string::npos)
+    while (test::read_file(file).find("one") == std::string::npos)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     fs::remove_all(folder);
     log->info("nowhere");
     fs::create_directories(folder);
     log->info("two");
     log.reset();
-    EXPECT_NE(read(file).find("two"), std::string::npos);
+    EXPECT_NE(test::read_file(file).find("two"), std::string::npos);
 }
 
 /// A pipe that nobody reads is such a disk: to open it takes as long as it takes a reader to come.
@@ -76,7 +68,7 @@ TEST(Log, DoesNotWaitForADiskThatHangs) {
     fs::remove(pipe);
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
     std::signal(SIGPIPE, SIG_IGN);  // as the program does: a reader may have left
-    Log log = make_log("treefarm", pipe, silent(), Loudness::quiet);
+    Log log = make_log("treefarm", pipe, silent(), Verbosity::quiet);
     std::future<void> said = std::async(std::launch::async, [&] {
         for (int i = 0; i < 10000; ++i)
             log->info("line {}", i);
@@ -87,7 +79,7 @@ TEST(Log, DoesNotWaitForADiskThatHangs) {
     std::thread reader([&] {
         // Each line opens the pipe anew.
         while (last.find("line 9999") == std::string::npos)
-            last = read(pipe);
+            last = test::read_file(pipe);
     });
     said.wait();
     log.reset();

@@ -119,7 +119,7 @@ TEST(ReadingNotice, SpeaksWhenItTakesLong) {
 TEST(Log, PlainInformationStandsAlone) {
     const Written plain({}), coloured({true, true}, false);
     for (const Written* written : {&plain, &coloured}) {
-        const Log log = make_log("treefarm", {}, written->console, Loudness::normal);
+        const Log log = make_log("treefarm", {}, written->console, Verbosity::normal);
         log->debug("every figure");
         log->info("pass 1");
         log->warn("name with\x1b[2J controls\n");
@@ -131,11 +131,11 @@ TEST(Log, PlainInformationStandsAlone) {
         "pass 1\ntreefarm: \x1b[1;33mwarning\x1b[m: name with?[2J controls?\ntreefarm: \x1b[1;31merror\x1b[m: no\n");
 }
 
-TEST(Log, LoudnessSaysWhatIsLeftOut) {
+TEST(Log, VerbositySaysWhatIsLeftOut) {
     const Written quiet({}), verbose({});
-    for (const auto& [written, loudness] :
-         {std::pair(&quiet, Loudness::quiet), std::pair(&verbose, Loudness::verbose)}) {
-        const Log log = make_log("treefarm", {}, written->console, loudness);
+    for (const auto& [written, verbosity] :
+         {std::pair(&quiet, Verbosity::quiet), std::pair(&verbose, Verbosity::verbose)}) {
+        const Log log = make_log("treefarm", {}, written->console, verbosity);
         log->debug("every figure");
         log->warn("careful");
         log->error("no");

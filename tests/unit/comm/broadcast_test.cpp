@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 #include "common/comm/broadcast_chain.h"
 #include "common/comm/in_process_channel.h"
 

@@ -119,30 +119,30 @@ TEST(Frames, PartsOfNothingAreRefused) {
 /// Both ends, joined by whatever `change` makes of the bytes between them.
 struct Meeting {
     std::function<Bytes(Bytes)> on_hello = [](Bytes b) { return b; }, on_answer = on_hello;
-    JoinTicket of_guest = ticket(), of_door = ticket();
+    JoinTicket of_guest = ticket(), of_listener = ticket();
     std::uint64_t build_of_guest = kBuild;
 
     std::string run() {
-        DoorHandshake door(of_door, kBuild, key_of(5));
+        ListenerHandshake listener(of_listener, kBuild, key_of(5));
         GuestHandshake guest(of_guest, build_of_guest, key_of(6));
         std::string why;
         try {
-            door.take(on_hello(guest.hello()));
+            listener.take(on_hello(guest.hello()));
         } catch (const FormatError& error) {
             why = error.what();
         }
-        guest.take(on_answer(door.take_answer()));
+        guest.take(on_answer(listener.take_answer()));
         refusal = guest.refusal();
         if (!why.empty() || !guest.is_welcome()) return why;
-        EXPECT_FALSE(door.is_admitted()) << "it has proved nothing yet";
+        EXPECT_FALSE(listener.is_admitted()) << "it has proved nothing yet";
         const Bytes first = bytes_of(33);
         const FrameHead head = frame_head(guest.sending_key(), 0, first, false);
-        door.take(Bytes(head.begin(), head.end()) + first);
-        EXPECT_TRUE(door.is_admitted());
-        EXPECT_EQ(door.take_reader().next(), first);
-        EXPECT_NE(guest.sending_key(), door.sending_key());
+        listener.take(Bytes(head.begin(), head.end()) + first);
+        EXPECT_TRUE(listener.is_admitted());
+        EXPECT_EQ(listener.take_reader().next(), first);
+        EXPECT_NE(guest.sending_key(), listener.sending_key());
         FrameReader back = guest.take_reader();
-        const FrameHead reply = frame_head(door.sending_key(), 0, first, false);
+        const FrameHead reply = frame_head(listener.sending_key(), 0, first, false);
         back.feed(Bytes(reply.begin(), reply.end()) + first);
         EXPECT_EQ(back.next(), first);
         return "";
@@ -205,7 +205,7 @@ TEST(Handshake, EveryBitOfTheAnswerIsUnderItsProof) {
 
 TEST(Handshake, WhoRepeatsAnothersWordsIsNoGuest) {
     GuestHandshake guest(ticket(), kBuild, key_of(6));
-    DoorHandshake first(ticket(), kBuild, key_of(5)), second(ticket(), kBuild, key_of(4));
+    ListenerHandshake first(ticket(), kBuild, key_of(5)), second(ticket(), kBuild, key_of(4));
     first.take(guest.hello());
     guest.take(first.take_answer());
     const Bytes message = bytes_of(10);
@@ -216,33 +216,33 @@ TEST(Handshake, WhoRepeatsAnothersWordsIsNoGuest) {
 }
 
 TEST(Handshake, WhoSaysMuchAndProvesNothingIsCutOff) {
-    DoorHandshake door(ticket(), kBuild, key_of(5));
+    ListenerHandshake listener(ticket(), kBuild, key_of(5));
     GuestHandshake guest(ticket(), kBuild, key_of(6));
-    door.take(guest.hello());
+    listener.take(guest.hello());
     Bytes frame(kFrameHeadBytes);
     frame[1] = kMostUnprovenBytes >> 8;  // its length
-    door.take(frame);
+    listener.take(frame);
     const std::size_t left = kMostUnprovenBytes - guest.hello().size() - frame.size();
-    door.take(Bytes(left));
-    EXPECT_THROW(door.take(Bytes(1)), FormatError);
+    listener.take(Bytes(left));
+    EXPECT_THROW(listener.take(Bytes(1)), FormatError);
 }
 
-TEST(Handshake, AStrangerIsKnownByItsFirstBytes) {
+TEST(Handshake, AForeignProtocolIsKnownByItsFirstBytes) {
     for (const std::size_t wrong : {std::size_t{0}, std::size_t{3}, std::size_t{4}, std::size_t{7}}) {
-        DoorHandshake door(ticket(), kBuild, key_of(5));
+        ListenerHandshake listener(ticket(), kBuild, key_of(5));
         Bytes begin(GuestHandshake(ticket(), kBuild, key_of(6)).hello());
         begin.resize(8);
         begin[wrong] ^= 1;
-        EXPECT_THROW(door.take(begin), FormatError) << wrong;
+        EXPECT_THROW(listener.take(begin), FormatError) << wrong;
     }
 }
 
 TEST(Handshake, MayComeByteByByte) {
-    DoorHandshake door(ticket(), kBuild, key_of(5));
+    ListenerHandshake listener(ticket(), kBuild, key_of(5));
     GuestHandshake guest(ticket(), kBuild, key_of(6));
     for (const std::uint8_t byte : guest.hello())
-        door.take({&byte, 1});
-    for (const std::uint8_t byte : door.take_answer())
+        listener.take({&byte, 1});
+    for (const std::uint8_t byte : listener.take_answer())
         guest.take({&byte, 1});
     EXPECT_TRUE(guest.is_welcome());
 }

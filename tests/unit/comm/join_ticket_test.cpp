@@ -5,9 +5,9 @@
 #include <sys/stat.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "common/base/error.h"
+#include "tests/support/refusal.h"
 
 namespace treefarm {
 namespace {
@@ -26,12 +26,7 @@ fs::path folder() {
 }
 
 std::string refusal(const std::function<void()>& act) {
-    try {
-        act();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return test::refusal_of([&] { act(); });
 }
 
 TEST(JoinTicket, IsReadAsItWasWrittenByItsOwnerAlone) {

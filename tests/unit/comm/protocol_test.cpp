@@ -22,7 +22,7 @@ Result sample_result() {
     result.stats.unguided.unguided[0] = 12;
     result.stats.unguided.cost = 13;
     result.stats.first_invalid.push_back({3, 1, 2, 5, {0, 1, 2}});
-    result.stats.tails.worst = {{2.5f, 3, 1, 2, 5, {LightFound::sky_met, LightWay::rough_glass, 7}},
+    result.stats.tails.worst = {{2.5f, 3, 1, 2, 5, {LightFound::sky_met, PathClass::rough_glass, 7}},
                                 {0.5f, 3, 0, 1, 6, {}}};
     for (std::uint16_t k = 0; k < 2; ++k) {
         UnitResult unit;
@@ -268,9 +268,9 @@ TEST(Protocol, UnitsThatDifferInTheirSamplesAreAnError) {
 
 TEST(Protocol, LightOfUnknownOriginIsRefused) {
     Result result = sample_result();
-    result.stats.tails.worst[0].origin.way = static_cast<LightWay>(6);
+    result.stats.tails.worst[0].origin.way = static_cast<PathClass>(6);
     EXPECT_THROW(decode(encode(result)), FormatError);
-    result.stats.tails.worst[0].origin = {static_cast<LightFound>(4), LightWay::mirror, 2};
+    result.stats.tails.worst[0].origin = {static_cast<LightFound>(4), PathClass::mirror, 2};
     EXPECT_THROW(decode(encode(result)), FormatError);
 }
 

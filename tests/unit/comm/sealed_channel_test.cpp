@@ -8,7 +8,6 @@
 #include "common/base/error.h"
 #include "common/comm/in_process_channel.h"
 #include "common/comm/run_key.h"
-#include "tests/support/support.h"
 
 namespace treefarm {
 namespace {

@@ -29,9 +29,9 @@ Payload payload(std::size_t count, int salt = 0) {
 }
 
 /// A guest whose every byte the test decides on.
-class Stranger {
+class RawConnection {
   public:
-    explicit Stranger(const JoinTicket& ticket)
+    explicit RawConnection(const JoinTicket& ticket)
         : handshake_(ticket, kBuild, draw_join_key()), socket_(connect_to(ticket.address, ticket.port, 5)) {}
 
     void say(std::span<const std::uint8_t> bytes) {
@@ -72,15 +72,15 @@ class TcpChannelTest : public ::testing::Test {
         options.address = address;
         options.fingerprint = kBuild;
         options.warning = [this](const std::string& text) { warnings_.push_back(text); };
-        door_ = std::make_unique<TcpChannel>(options, kFirst, limits, [this] { return now_; });
+        listener_ = std::make_unique<TcpChannel>(options, kFirst, limits, [this] { return now_; });
     }
 
     /// Turns the door's loop until something is so.
     void turn_until(const std::function<bool()>& condition) {
         const Timer timer;
         while (!condition() && timer.seconds() < 30) {
-            if (auto message = door_->poll()) got_.push_back(std::move(*message));
-            door_->rest(1e-3);
+            if (auto message = listener_->poll()) got_.push_back(std::move(*message));
+            listener_->rest(1e-3);
         }
         EXPECT_TRUE(condition());
     }
@@ -88,8 +88,8 @@ class TcpChannelTest : public ::testing::Test {
     /// A guest that has come in with a message of four bytes.
     std::unique_ptr<Channel> guest() {
         std::unique_ptr<Channel> channel;
-        std::thread joining([&] { channel = join_run(door_->ticket(), kBuild); });
-        turn_until([&] { return door_->unproven() > 0; });
+        std::thread joining([&] { channel = join_run(listener_->ticket(), kBuild); });
+        turn_until([&] { return listener_->unproven() > 0; });
         const Timer timer;
         std::atomic<bool> joined = false;
         std::thread wait([&] {
@@ -97,7 +97,7 @@ class TcpChannelTest : public ::testing::Test {
             joined = true;
         });
         while (!joined && timer.seconds() < 30)
-            door_->drained();
+            listener_->drained();
         wait.join();
         const std::size_t before = got_.size();
         channel->send(0, payload(4));
@@ -108,7 +108,7 @@ class TcpChannelTest : public ::testing::Test {
     double now_ = 0;
     std::vector<std::string> warnings_;
     std::vector<Received> got_;
-    std::unique_ptr<TcpChannel> door_;
+    std::unique_ptr<TcpChannel> listener_;
 };
 
 TEST_F(TcpChannelTest, MessagesOfAnySizeComeBothWaysInOrder) {
@@ -121,7 +121,7 @@ TEST_F(TcpChannelTest, MessagesOfAnySizeComeBothWaysInOrder) {
             continue;
         }
         const auto channel = guest();
-        EXPECT_EQ(door_->peers(), std::vector<int>{kFirst});
+        EXPECT_EQ(listener_->peers(), std::vector<int>{kFirst});
         const std::vector<std::size_t> sizes = {0, 1, 70'000, kMostFrameBytes + 1, 3};
         std::thread other([&] {
             for (const std::size_t size : sizes)
@@ -138,8 +138,8 @@ TEST_F(TcpChannelTest, MessagesOfAnySizeComeBothWaysInOrder) {
                 channel->rest(1e-3);
         });
         for (const std::size_t size : sizes)
-            door_->send(kFirst, payload(size, 2));
-        turn_until([&] { return got_.size() == 1 + sizes.size() && door_->drained(); });
+            listener_->send(kFirst, payload(size, 2));
+        turn_until([&] { return got_.size() == 1 + sizes.size() && listener_->drained(); });
         other.join();
         ASSERT_EQ(got_.size(), 1 + sizes.size());
         for (std::size_t k = 0; k < sizes.size(); ++k)
@@ -153,22 +153,22 @@ TEST_F(TcpChannelTest, AGuestThatClosesIsGoneAtOnceAndItsNumberToo) {
     auto first = guest();
     first->send(0, payload(9));
     first.reset();
-    turn_until([&] { return !door_->is_open(kFirst); });
+    turn_until([&] { return !listener_->is_open(kFirst); });
     EXPECT_EQ(got_.back().bytes, *payload(9)) << "its last words are heard";
-    door_->send(kFirst, payload(1));  // nobody hears it
-    EXPECT_TRUE(door_->drained());
+    listener_->send(kFirst, payload(1));  // nobody hears it
+    EXPECT_TRUE(listener_->drained());
     const auto second = guest();
-    EXPECT_EQ(door_->peers(), std::vector<int>{kFirst + 1});
-    EXPECT_EQ(door_->peer_count(), kFirst + 2);
+    EXPECT_EQ(listener_->peers(), std::vector<int>{kFirst + 1});
+    EXPECT_EQ(listener_->peer_count(), kFirst + 2);
     EXPECT_TRUE(warnings_.empty());
 }
 
 TEST_F(TcpChannelTest, AGuestNoticesThatTheCoordinatorIsGone) {
     open();
     auto channel = guest();
-    door_->send(kFirst, payload(5));
-    EXPECT_TRUE(door_->drained());
-    std::thread closing([&] { door_->close(0.1); });
+    listener_->send(kFirst, payload(5));
+    EXPECT_TRUE(listener_->drained());
+    std::thread closing([&] { listener_->close(0.1); });
     const Timer timer;
     bool heard = false;
     while (channel->is_open(0) && timer.seconds() < 30) {
@@ -185,27 +185,27 @@ TEST_F(TcpChannelTest, AGuestNoticesThatTheCoordinatorIsGone) {
 TEST_F(TcpChannelTest, WhoIsWrongIsCutOffWithOneLineAndTheOthersGoOn) {
     open();
     const auto honest = guest();
-    JoinTicket wrong = door_->ticket();
+    JoinTicket wrong = listener_->ticket();
     wrong.secret[0] ^= 1;
-    Stranger keyless(wrong), random(door_->ticket());
+    RawConnection keyless(wrong), random(listener_->ticket());
     keyless.say_hello();
     random.say(Bytes(64, 0x55));
     turn_until([&] { return keyless.is_cut_off() && random.is_cut_off(); });
     EXPECT_EQ(warnings_.size(), 2u);
 
-    Stranger replayer(door_->ticket());
+    RawConnection replayer(listener_->ticket());
     replayer.say_hello();
-    turn_until([&] { return door_->unproven() > 0; });
-    door_->poll();
+    turn_until([&] { return listener_->unproven() > 0; });
+    listener_->poll();
     replayer.take_answer();
     ASSERT_TRUE(replayer.is_welcome());
-    EXPECT_EQ(door_->peers().size(), 1u) << "it has proved nothing yet";
+    EXPECT_EQ(listener_->peers().size(), 1u) << "it has proved nothing yet";
     const Bytes said = replayer.frame(Bytes(10, 1));
     replayer.say(said);
-    turn_until([&] { return door_->peers().size() == 2; });
+    turn_until([&] { return listener_->peers().size() == 2; });
     replayer.say(said);
     turn_until([&] { return replayer.is_cut_off(); });
-    EXPECT_EQ(door_->peers(), std::vector<int>{kFirst});
+    EXPECT_EQ(listener_->peers(), std::vector<int>{kFirst});
     EXPECT_EQ(got_.back().bytes, Bytes(10, 1));
     ASSERT_EQ(warnings_.size(), 3u);
     EXPECT_NE(warnings_[2].find("repeated"), std::string::npos) << warnings_[2];
@@ -218,66 +218,66 @@ TEST_F(TcpChannelTest, WhoIsWrongIsCutOffWithOneLineAndTheOthersGoOn) {
 
 TEST_F(TcpChannelTest, WhoSaysTooLittleForTooLongIsCutOff) {
     open();
-    Stranger silent(door_->ticket()), slow(door_->ticket());
+    RawConnection silent(listener_->ticket()), slow(listener_->ticket());
     slow.say(Bytes{'T', 'F'});
-    turn_until([&] { return door_->unproven() == 2; });
+    turn_until([&] { return listener_->unproven() == 2; });
     now_ = 4.9;
-    door_->poll();
-    EXPECT_EQ(door_->unproven(), 2u);
+    listener_->poll();
+    EXPECT_EQ(listener_->unproven(), 2u);
     now_ = 5.1;
     slow.say(Bytes{'J'});
     turn_until([&] { return silent.is_cut_off() && slow.is_cut_off(); });
-    EXPECT_EQ(door_->unproven(), 0u);
+    EXPECT_EQ(listener_->unproven(), 0u);
     EXPECT_EQ(warnings_.size(), 2u);
 }
 
 TEST_F(TcpChannelTest, The65thThatProvesNothingIsTurnedAway) {
     open();
-    std::vector<std::unique_ptr<Stranger>> crowd;
+    std::vector<std::unique_ptr<RawConnection>> crowd;
     for (int k = 0; k < 64; ++k)
-        crowd.push_back(std::make_unique<Stranger>(door_->ticket()));
-    turn_until([&] { return door_->unproven() == 64; });
-    Stranger last(door_->ticket());
+        crowd.push_back(std::make_unique<RawConnection>(listener_->ticket()));
+    turn_until([&] { return listener_->unproven() == 64; });
+    RawConnection last(listener_->ticket());
     turn_until([&] { return !warnings_.empty(); });
     last.take_answer();
     EXPECT_EQ(last.refusal(), JoinRefusal::crowded);
     EXPECT_TRUE(last.is_cut_off());
-    EXPECT_EQ(door_->unproven(), 64u);
+    EXPECT_EQ(listener_->unproven(), 64u);
     crowd.pop_back();
-    turn_until([&] { return door_->unproven() == 63; });
+    turn_until([&] { return listener_->unproven() == 63; });
     const auto guest_after = guest();
-    EXPECT_EQ(door_->peers().size(), 1u);
+    EXPECT_EQ(listener_->peers().size(), 1u);
 }
 
 TEST_F(TcpChannelTest, AGuestThatTakesNothingInIsGivenUp) {
     open({.most_unsent = 1 << 20});
     const auto channel = guest();
     const Payload large = payload(std::size_t{32} << 20);
-    door_->send(kFirst, large);
-    while (door_->unsent(kFirst) > (20 << 20)) {  // it takes some
-        door_->drained();
+    listener_->send(kFirst, large);
+    while (listener_->unsent(kFirst) > (20 << 20)) {  // it takes some
+        listener_->drained();
         channel->poll();
     }
     now_ = 10.5;
-    door_->drained();
-    EXPECT_TRUE(door_->is_open(kFirst)) << "it is behind, but gets on";
+    listener_->drained();
+    EXPECT_TRUE(listener_->is_open(kFirst)) << "it is behind, but gets on";
     for (int k = 0; k < 100; ++k)
-        door_->drained();  // buffers are full now
+        listener_->drained();  // buffers are full now
     now_ = 21;
-    door_->drained();
+    listener_->drained();
     now_ = 32;
-    door_->drained();
-    EXPECT_FALSE(door_->is_open(kFirst));
+    listener_->drained();
+    EXPECT_FALSE(listener_->is_open(kFirst));
     ASSERT_EQ(warnings_.size(), 1u);
     EXPECT_NE(warnings_[0].find("takes in less"), std::string::npos);
 }
 
-TEST_F(TcpChannelTest, StrangersForEverFillNoLog) {
+TEST_F(TcpChannelTest, UnknownConnectionsFillNoLog) {
     open();
     for (int k = 0; k < 30; ++k) {
-        Stranger stranger(door_->ticket());
-        stranger.say(Bytes(8, 1));
-        turn_until([&] { return stranger.is_cut_off(); });
+        RawConnection raw(listener_->ticket());
+        raw.say(Bytes(8, 1));
+        turn_until([&] { return raw.is_cut_off(); });
     }
     EXPECT_EQ(warnings_.size(), 20u);
 }
@@ -290,7 +290,7 @@ TEST_F(TcpChannelTest, AnAddressOrPortThatWillNotDoIsSaid) {
     EXPECT_THROW(TcpChannel(options, 1), InputError);
     open();
     options.address = "127.0.0.1";
-    options.port = door_->ticket().port;
+    options.port = listener_->ticket().port;
     try {
         TcpChannel(options, 1);
         ADD_FAILURE();
@@ -313,20 +313,20 @@ TEST_F(TcpChannelTest, AGuestIsToldWhatToDo) {
             done = true;
         });
         while (!done) {
-            door_->poll();
-            door_->rest(1e-3);
+            listener_->poll();
+            listener_->rest(1e-3);
         }
         joining.join();
         return text;
     };
-    JoinTicket ticket = door_->ticket();
+    JoinTicket ticket = listener_->ticket();
     ticket.run[0] ^= 1;
     EXPECT_NE(why(ticket).find("another run answers there"), std::string::npos);
-    ticket = door_->ticket();
+    ticket = listener_->ticket();
     ticket.secret[0] ^= 1;
     EXPECT_NE(why(ticket).find("the secret of this ticket is not the run's"), std::string::npos);
-    door_->close(0);
-    EXPECT_NE(why(door_->ticket()).find("nobody answers"), std::string::npos);
+    listener_->close(0);
+    EXPECT_NE(why(listener_->ticket()).find("nobody answers"), std::string::npos);
 }
 
 TEST(TcpLink, LastWordsAreHeardThoughNothingCanBeSaidAnyMore) {

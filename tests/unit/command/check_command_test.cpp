@@ -208,7 +208,7 @@ class CheckCommand : public test::MitsubaFixture {
 };
 
 /// A room that stands a thousand of its sizes from the middle of its scene, and the scene's own remedy.
-TEST_F(CheckCommand, SaysWhatAFarPlaceCosts) {
+TEST_F(CheckCommand, SaysWhatADistantPositionCosts) {
     const std::string translation = "<translate x=\"1000.3\" y=\"700.21\" z=\"400.12\"/></transform>";
     const std::string scene =
         "<sensor type=\"perspective\"><transform name=\"to_world\"><lookat origin=\"1000.3,700.21,400.32\" "
@@ -254,7 +254,7 @@ TEST_F(CheckCommand, FindsDefectsOfSeveralFiles) {
 }
 
 /// Findings on the whole scene have the scene's file for a place.
-TEST_F(CheckCommand, FindsScaleAndPlace) {
+TEST_F(CheckCommand, FindsScaleAndPosition) {
     const auto room = [](const char* transform) {
         return std::string("<shape type=\"cube\"><transform name=\"toWorld\">") + transform +
                "</transform></shape><emitter type=\"constant\"/>";

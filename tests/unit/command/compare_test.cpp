@@ -10,6 +10,7 @@
 #include "common/image/exr.h"
 #include "tests/support/command.h"
 #include "tests/support/read_ldr.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
@@ -27,17 +28,8 @@ nlohmann::json compare_json(const std::string& arguments) {
 }
 
 /// Images of 64 x 64 pixels: 1 in every channel, noise of standard deviation 0.1, its variance, 100 spp.
-class Compare : public testing::Test {
+class Compare : public test::FolderTest {
   protected:
-    void SetUp() override {
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = fs::path(testing::TempDir()) / (std::string("compare_") + test->name());
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
-    }
-
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
     static float uniform_noise(std::uint64_t seed, std::size_t pixel, int channel) {
         const Draw d =
             draw({seed, static_cast<std::uint32_t>(pixel), 0}, static_cast<std::uint32_t>(channel), Stream::camera);
@@ -56,8 +48,6 @@ class Compare : public testing::Test {
         write_exr(path(name), image, {{"treefarm.spp", "100"}}, half ? PixelType::half : PixelType::float32);
         return path(name);
     }
-
-    fs::path folder_;
 };
 
 TEST_F(Compare, AnUnbiasedImagePassesAndABiasedOneFails) {

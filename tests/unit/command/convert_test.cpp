@@ -4,16 +4,15 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include "cli/picture_of_layer.h"
 #include "cli/tonemap.h"
-#include "common/base/error.h"
 #include "common/image/exr.h"
 #include "common/image/png.h"
 #include "coordinator/input/images/stored_image.h"
 #include "tests/support/command.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
@@ -45,13 +44,9 @@ TEST(ToneMap, FollowsItsFormula) {
 }
 
 /// Two pixels by one: colour, a normal and nothing, depth 2 and 6, number 3, half opaque.
-class Convert : public testing::Test {
+class Convert : public test::FolderTest {
   protected:
     void SetUp() override {
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = fs::path(testing::TempDir()) / (std::string("convert_") + test->name());
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
         image_ = Image{2, 1, {}, {}};
         add("R", 0.25f, 8.0f);
         add("G", 0.25f, 0.0f);
@@ -72,8 +67,6 @@ class Convert : public testing::Test {
         values[1] = b;
     }
 
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
     test::Ended convert(const std::string& rest) const {
         return test::run_treefarm("convert " + path("in.exr") + " " + rest);
     }
@@ -87,7 +80,6 @@ class Convert : public testing::Test {
     }
 
     Image image_;
-    fs::path folder_;
 };
 
 TEST_F(Convert, ColoursGoThroughExposureAndToneMap) {

@@ -3,64 +3,51 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "common/config/job_reader.h"
-#include "common/plan/resolve/policy_table.h"
 #include "common/plan/resolve/resolved_file.h"
 #include "tests/support/command.h"
 #include "tests/support/support.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
 
 namespace fs = std::filesystem;
 
-class InitialModel : public ::testing::Test {
+class InitialModel : public test::FolderTest {
   protected:
-    static fs::path folder() {
-        return fs::path(::testing::TempDir()) / "initial_model" /
-               ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    }
-
     /// The frame that the others begin with.
     void SetUp() override {
-        fs::remove_all(folder());
-        fs::create_directories(folder());
         const test::Ended first = render("first", "--set guiding.type=ppg");
         ASSERT_EQ(first.code, 0) << first.output;
     }
 
-    static test::Ended render(const std::string& run, const std::string& options, int spp = 63) {
+    test::Ended render(const std::string& run, const std::string& options, int spp = 63) const {
         return test::run_treefarm("render " + test::own_scene("glossy-room.xml") +
                                   " -D width=24 -D height=16 --set guiding.spatial_threshold=200 --run-dir " +
-                                  (folder() / run).string() + " --spp " + std::to_string(spp) + " " + options);
+                                  (folder_ / run).string() + " --spp " + std::to_string(spp) + " " + options);
     }
 
-    static std::string from(const std::string& run) {
-        return "--set guiding.initial_model=" + (folder() / run).string() + " ";
+    std::string from(const std::string& run) const {
+        return "--set guiding.initial_model=" + (folder_ / run).string() + " ";
     }
 
-    static std::string text_of(const fs::path& file) {
-        return (std::stringstream() << std::ifstream(file).rdbuf()).str();
-    }
-
-    static nlohmann::json summary(const std::string& run) {
-        return nlohmann::json::parse(text_of(folder() / run / "summary.json"));
+    nlohmann::json summary(const std::string& run) const {
+        return nlohmann::json::parse(test::read_file(folder_ / run / "summary.json"));
     }
 };
 
 TEST_F(InitialModel, GuidesFromTheFirstPassOnAndIsTaughtByLongOnesOnly) {
     const test::Ended ended = render("second", "--set guiding.type=ppg --set sampler.seed=1 " + from("first"));
     ASSERT_EQ(ended.code, 0) << ended.output;
-    const Job job = read_resolved(text_of(folder() / "second/resolved.toml"), "resolved.toml");
+    const Job job = read_resolved(test::read_file(folder_ / "second/resolved.toml"), "resolved.toml");
     EXPECT_EQ(job.guiding.initial_model_hash, summary("first")["tree_file_hash"]);
     EXPECT_EQ(job.guiding.initial_model_spp, 16) << "1 2 4 8 16 teach, the last of 32 does not";
     const nlohmann::json passes = summary("second")["passes"];
     EXPECT_EQ(passes[0]["tree_regions"], summary("first")["passes"].back()["tree_regions"]);
-    const std::string schedule = text_of(folder() / "second/schedule.toml");
+    const std::string schedule = test::read_file(folder_ / "second/schedule.toml");
     std::size_t teaching = 0;
     for (std::size_t at = 0; (at = schedule.find("record = true", at)) != std::string::npos; ++at)
         ++teaching;
@@ -71,8 +58,8 @@ TEST_F(InitialModel, GuidesFromTheFirstPassOnAndIsTaughtByLongOnesOnly) {
 TEST_F(InitialModel, TheSameModelGivesTheSameBits) {
     const std::string options = "--set guiding.type=ppg --set sampler.seed=2 " + from("first");
     ASSERT_EQ(render("third", options).code, 0);
-    const test::Ended again = test::run_treefarm("render " + (folder() / "third/resolved.toml").string() +
-                                                 " --run-dir " + (folder() / "again").string());
+    const test::Ended again = test::run_treefarm("render " + (folder_ / "third/resolved.toml").string() +
+                                                 " --run-dir " + (folder_ / "again").string());
     ASSERT_EQ(again.code, 0) << again.output;
     EXPECT_EQ(summary("again")["image_hash"], summary("third")["image_hash"]);
     EXPECT_EQ(summary("again")["tree_hash"], summary("third")["tree_hash"]);
@@ -81,8 +68,8 @@ TEST_F(InitialModel, TheSameModelGivesTheSameBits) {
 TEST_F(InitialModel, ARenderThatBeganWithOneGoesOnWithoutIt) {
     ASSERT_EQ(render("base", "--set guiding.type=ppg --set sampler.seed=4").code, 0);
     ASSERT_EQ(render("grown", "--set guiding.type=ppg --set sampler.seed=3 " + from("base")).code, 0);
-    fs::remove_all(folder() / "base");
-    const test::Ended ended = test::run_treefarm("resume " + (folder() / "grown").string() + " --spp 100");
+    fs::remove_all(folder_ / "base");
+    const test::Ended ended = test::run_treefarm("resume " + (folder_ / "grown").string() + " --spp 100");
     EXPECT_EQ(ended.code, 0) << ended.output;
     EXPECT_EQ(summary("grown")["spp"], 100);
 }
@@ -91,7 +78,7 @@ TEST_F(InitialModel, OneThatTaughtNothingHandsOnWhatItBeganWith) {
     ASSERT_EQ(render("second", "--set guiding.type=ppg " + from("first"), 15).code, 0)
         << "passes of 1 2 4 8 teach nothing";
     ASSERT_EQ(render("third", "--set guiding.type=ppg " + from("second"), 15).code, 0);
-    const Job job = read_resolved(text_of(folder() / "third/resolved.toml"), "resolved.toml");
+    const Job job = read_resolved(test::read_file(folder_ / "third/resolved.toml"), "resolved.toml");
     EXPECT_EQ(job.guiding.initial_model_spp, 16);
     EXPECT_FALSE(job.guiding.initial_model_hash.empty());
     EXPECT_GT(summary("third")["passes"][0]["tree_regions"], 1);
@@ -103,7 +90,7 @@ TEST_F(InitialModel, AnotherGuidesModelIsRefused) {
     EXPECT_NE(ended.output.find("its model is another guide's: guiding.type was \"ppg\", is \"view\""),
               std::string::npos)
         << ended.output;
-    EXPECT_FALSE(fs::exists(folder() / "other"));
+    EXPECT_FALSE(fs::exists(folder_ / "other"));
 }
 
 TEST_F(InitialModel, AnotherModelThanTheJobSaysIsRefused) {
@@ -129,8 +116,8 @@ TEST_F(InitialModel, ARenderThatLearnedNothingIsAWarning) {
 }
 
 TEST_F(InitialModel, ADamagedModelIsRefused) {
-    fs::copy(folder() / "first", folder() / "damaged", fs::copy_options::recursive);
-    fs::resize_file(folder() / "damaged/tree.bin", fs::file_size(folder() / "damaged/tree.bin") / 2);
+    fs::copy(folder_ / "first", folder_ / "damaged", fs::copy_options::recursive);
+    fs::resize_file(folder_ / "damaged/tree.bin", fs::file_size(folder_ / "damaged/tree.bin") / 2);
     const test::Ended ended = render("of-damaged", "--set guiding.type=ppg " + from("damaged"));
     EXPECT_EQ(ended.code, 2);
     EXPECT_NE(ended.output.find("damaged/tree.bin: "), std::string::npos) << ended.output;

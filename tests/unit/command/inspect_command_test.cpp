@@ -6,36 +6,21 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 
 #include "common/image/exr.h"
 #include "tests/support/command.h"
 #include "tests/support/read_ldr.h"
 #include "tests/support/support.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
-}
-
-class InspectCommand : public testing::Test {
+class InspectCommand : public test::FolderTest {
   protected:
-    void SetUp() override {
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = fs::path(testing::TempDir()) / (std::string("inspect_") + test->name());
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
-        run_ = (folder_ / "run").string();
-    }
-
     void render(const std::string& arguments) {
         const test::Ended ended =
             test::run_treefarm("render --quiet --threads 2 --overwrite --run-dir " + run_ + " " + arguments);
@@ -59,8 +44,7 @@ class InspectCommand : public testing::Test {
         return test::own_scene("white-furnace.xml") + " -D size=16 --spp 63 --set guiding.type=ppg " + options;
     }
 
-    fs::path folder_;
-    std::string run_;
+    const std::string run_ = path("run");
 };
 
 TEST_F(InspectCommand, FindsTheKnownRadianceOfTheFurnace) {
@@ -71,8 +55,8 @@ TEST_F(InspectCommand, FindsTheKnownRadianceOfTheFurnace) {
     EXPECT_NEAR(found["places"][0]["reflected"].get<double>(), 1.0, 0.02);
     EXPECT_GT(found["places"][0]["pictures"][0]["overlap"].get<double>(), 0.6) << "a region has more normals than one";
     EXPECT_EQ(found["places"][1]["pictures"].size(), 1u) << "nothing is reflected at a bare point";
-    for (const auto& place : found["places"])
-        for (const auto& picture : place["pictures"]) {
+    for (const auto& point : found["places"])
+        for (const auto& picture : point["pictures"]) {
             EXPECT_EQ(picture["panels"].size(), 2u) << "without next event nothing is left out";
             const Image image = read_ldr(picture["file"].get<std::string>(), Encoding::srgb);
             EXPECT_EQ(image.height, 256);
@@ -121,16 +105,16 @@ TEST_F(InspectCommand, ShowsViewsAndTheFilmWithTheSameBitsForAnyThreads) {
     const nlohmann::json one = inspect(pixels + " --threads 1");
     std::vector<std::string> pictures;
     for (const auto& entry : fs::directory_iterator(run_ + "/inspect"))
-        pictures.push_back(text_of(entry.path()));
+        pictures.push_back(test::read_file(entry.path()));
     EXPECT_EQ(one, inspect(pixels + " --threads 2"));
     std::size_t k = 0;
     for (const auto& entry : fs::directory_iterator(run_ + "/inspect"))
-        EXPECT_EQ(text_of(entry.path()), pictures.at(k++)) << entry.path();
+        EXPECT_EQ(test::read_file(entry.path()), pictures.at(k++)) << entry.path();
     EXPECT_GT(one["tree"]["views"], 0);
     EXPECT_GT(one["tree"]["t2_share"], 0.0);
     bool has_view = false;
-    for (const auto& place : one["places"])
-        for (const auto& picture : place["pictures"])
+    for (const auto& point : one["places"])
+        for (const auto& picture : point["pictures"])
             has_view |= picture["kind"] == "t2" && fs::exists(picture["file"].get<std::string>());
     EXPECT_TRUE(has_view);
     ASSERT_EQ(one["maps"].size(), 4u);
@@ -168,7 +152,7 @@ TEST_F(InspectCommand, RefusesWhatIsMissingOrDoesNotMatch) {
                                                           {"--point 0,0,0:0,0,0", "a normal without direction"},
                                                           {"--size 33 --pixel 1,1", "no power of two"}})
         expect_refused(run_ + " " + arguments, why);
-    std::string text = text_of(scene);
+    std::string text = test::read_file(scene);
     text.replace(text.find("value=\"1\""), 9, "value=\"3\"");
     std::ofstream(scene) << text;
     expect_refused(run_, "it has changed since");

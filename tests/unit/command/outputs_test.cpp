@@ -10,7 +10,7 @@
 #include "common/image/exr.h"
 #include "coordinator/input/images/stored_image.h"
 #include "tests/support/command.h"
-#include "tests/support/support.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
@@ -19,15 +19,8 @@ namespace fs = std::filesystem;
 
 const fs::path kRoot = TREEFARM_SOURCE_DIR;
 
-class Outputs : public testing::Test {
+class Outputs : public test::FolderTest {
   protected:
-    void SetUp() override {
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = fs::path(testing::TempDir()) / (std::string("outputs_") + test->name());
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
-    }
-
     ExrImage render(const std::string& scene, const std::string& options) const {
         const test::Ended ended =
             test::run_treefarm("render '" + scene + "' --quiet --spp 8 --threads 1 --overwrite --run-dir '" +
@@ -39,8 +32,6 @@ class Outputs : public testing::Test {
     ExrImage render_box(const std::string& options) const {
         return render((kRoot / "configs/scenes/cornell-box.xml").string(), "-D size=24 " + options);
     }
-
-    fs::path folder_;
 };
 
 std::span<const float> channel(const ExrImage& file, const std::string& name) {

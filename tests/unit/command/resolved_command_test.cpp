@@ -3,51 +3,43 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "tests/support/command.h"
 #include "tests/support/support.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
 
 namespace fs = std::filesystem;
 
-class ResolvedCommand : public ::testing::Test {
+class ResolvedCommand : public test::FolderTest {
   protected:
-    static fs::path folder() {
-        return fs::path(::testing::TempDir()) / "resolved_command" /
-               ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    }
-
     void SetUp() override {
-        fs::remove_all(folder());
-        fs::create_directories(folder());
-        fs::create_directory_symlink(fs::path(test::own_scene("")) / "meshes", folder() / "meshes");
-        write("scene.xml", text_of(test::own_scene("glossy-room.xml")));
+        fs::create_directory_symlink(fs::path(test::own_scene("")) / "meshes", folder_ / "meshes");
+        write("scene.xml", test::read_file(test::own_scene("glossy-room.xml")));
     }
 
-    static test::Ended render(const std::string& input, const std::string& run, const std::string& options = "") {
-        return test::run_treefarm("render " + (folder() / input).string() + " --run-dir " + (folder() / run).string() +
+    test::Ended render(const std::string& input, const std::string& run, const std::string& options = "") const {
+        return test::run_treefarm("render " + (folder_ / input).string() + " --run-dir " + (folder_ / run).string() +
                                   " " + options);
     }
 
-    static void render_first(const std::string& options) {
+    void render_first(const std::string& options) const {
         const test::Ended first = render("scene.xml", "first", "-D width=24 -D height=16 " + options);
         ASSERT_EQ(first.code, 0) << first.output;
     }
 
     /// A resolved.toml that is refused, and why.
-    static void expect_refusal(const std::string& why, const std::string& options = "") {
+    void expect_refusal(const std::string& why, const std::string& options = "") const {
         const test::Ended again = render("first/resolved.toml", "again", options);
         EXPECT_EQ(again.code, 2);
         EXPECT_NE(again.output.find(why), std::string::npos) << again.output;
-        EXPECT_FALSE(fs::exists(folder() / "again"));
+        EXPECT_FALSE(fs::exists(folder_ / "again"));
     }
 
-    static void expect_equal_images() {
+    void expect_equal_images() const {
         const test::Ended again = render("first/resolved.toml", "again");
         ASSERT_EQ(again.code, 0) << again.output;
         EXPECT_EQ(summary("again")["image_hash"], summary("first")["image_hash"]);
@@ -55,33 +47,26 @@ class ResolvedCommand : public ::testing::Test {
         EXPECT_EQ(summary("again")["spp"], summary("first")["spp"]);
     }
 
-    static std::string text_of(const fs::path& file) {
-        return (std::stringstream() << std::ifstream(file).rdbuf()).str();
-    }
-
-    static void write(const std::string& name, const std::string& text) { std::ofstream(folder() / name) << text; }
-
     /// Replaces the first `from` of a file.
-    static void edit(const std::string& name, const std::string& from, const std::string& to) {
-        std::string text = text_of(folder() / name);
+    void edit(const std::string& name, const std::string& from, const std::string& to) const {
+        std::string text = test::read_file(folder_ / name);
         const std::size_t at = text.find(from);
         ASSERT_NE(at, std::string::npos) << from;
         write(name, text.replace(at, from.size(), to));
     }
 
-    static nlohmann::json summary(const std::string& run) {
-        return nlohmann::json::parse(text_of(folder() / run / "summary.json"));
+    nlohmann::json summary(const std::string& run) const {
+        return nlohmann::json::parse(test::read_file(folder_ / run / "summary.json"));
     }
 };
 
 TEST_F(ResolvedCommand, GivesTheImageOnceMore) {
     render_first("--spp 31 --set sampler.seed=3");
     for (const char* absent : {"\nschedule =", "'auto'", "\"auto\""})
-        EXPECT_EQ(text_of(folder() / "first/resolved.toml").find(absent), std::string::npos) << absent;
+        EXPECT_EQ(test::read_file(folder_ / "first/resolved.toml").find(absent), std::string::npos) << absent;
     expect_equal_images();
-    EXPECT_EQ(text_of(folder() / "again/resolved.toml"), text_of(folder() / "first/resolved.toml"));
-    EXPECT_EQ(test::run_treefarm("plan " + (folder() / "first/resolved.toml").string() + " --spp 8 --probe 0.2").code,
-              0)
+    EXPECT_EQ(test::read_file(folder_ / "again/resolved.toml"), test::read_file(folder_ / "first/resolved.toml"));
+    EXPECT_EQ(test::run_treefarm("plan " + (folder_ / "first/resolved.toml").string() + " --spp 8 --probe 0.2").code, 0)
         << "a probe on another film";
 }
 
@@ -98,18 +83,18 @@ TEST_F(ResolvedCommand, AnEditedSceneIsRefused) {
 TEST_F(ResolvedCommand, ASceneThatWasMovedOrGotACommentIsTheSame) {
     render_first("--spp 3");
     edit("scene.xml", "<shape", "<!-- a line -->\n\n<shape");
-    fs::create_directories(folder() / "elsewhere");
-    fs::rename(folder() / "scene.xml", folder() / "elsewhere/scene.xml");
-    fs::create_directory_symlink(folder() / "meshes", folder() / "elsewhere/meshes");
+    fs::create_directories(folder_ / "elsewhere");
+    fs::rename(folder_ / "scene.xml", folder_ / "elsewhere/scene.xml");
+    fs::create_directory_symlink(folder_ / "meshes", folder_ / "elsewhere/meshes");
     const test::Ended again =
-        render("first/resolved.toml", "again", "--set scene.file=" + (folder() / "elsewhere/scene.xml").string());
+        render("first/resolved.toml", "again", "--set scene.file=" + (folder_ / "elsewhere/scene.xml").string());
     ASSERT_EQ(again.code, 0) << again.output;
     EXPECT_EQ(summary("again")["image_hash"], summary("first")["image_hash"]);
 }
 
 TEST_F(ResolvedCommand, WhatWasTakenOutIsMissed) {
     render_first("--spp 3");
-    const std::string text = text_of(folder() / "first/resolved.toml");
+    const std::string text = test::read_file(folder_ / "first/resolved.toml");
     write("first/resolved.toml", text.substr(0, text.find("[policy.")));
     expect_refusal("policy.guiding.least_judged_spp is not in it");
     write("first/resolved.toml", text);
@@ -121,14 +106,14 @@ TEST_F(ResolvedCommand, TakesListedPassesFromBesideIt) {
     write("passes.toml",
           "[[pass]]\nspp = 2\nnext_event = true\nrecord = true\n\n[[pass]]\nspp = 7\nnext_event = true\n"
           "record = false\n");
-    render_first("--schedule " + (folder() / "passes.toml").string());
+    render_first("--schedule " + (folder_ / "passes.toml").string());
     expect_equal_images();
     EXPECT_EQ(render("again/resolved.toml", "thrice").code, 0);
     EXPECT_EQ(summary("thrice")["image_hash"], summary("first")["image_hash"]);
     EXPECT_EQ(render("first/resolved.toml", "longer", "--spp 31").code, 0) << "a budget of one's own";
     EXPECT_EQ(summary("longer")["spp"], 31);
-    fs::remove_all(folder() / "again");
-    fs::remove(folder() / "first/schedule.toml");
+    fs::remove_all(folder_ / "again");
+    fs::remove(folder_ / "first/schedule.toml");
     expect_refusal("first/resolved.toml:7:12: its passes are those of ");
     expect_refusal("which is not there; name it with --schedule FILE");
 }
@@ -137,14 +122,14 @@ TEST_F(ResolvedCommand, TakesPassesThatTheClockChoseFromBesideIt) {
     render_first("--seconds 0.5");
     expect_equal_images();
     edit("first/resolved.toml", "schedule = \"schedule.toml\"", "");
-    fs::remove_all(folder() / "again");
+    fs::remove_all(folder_ / "again");
     expect_refusal("budget.seconds chose the passes, but experiment.schedule does not say where they are");
     EXPECT_EQ(render("first/resolved.toml", "longer", "--spp 3").code, 0) << "a budget of one's own";
 }
 
 TEST_F(ResolvedCommand, TakesThePassesOfARenderThatWentOn) {
     render_first("--spp 20");
-    const test::Ended more = test::run_treefarm("resume " + (folder() / "first").string() + " --spp 50");
+    const test::Ended more = test::run_treefarm("resume " + (folder_ / "first").string() + " --spp 50");
     ASSERT_EQ(more.code, 0) << more.output;
     expect_equal_images();
 }

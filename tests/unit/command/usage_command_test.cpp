@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/command.h"
 #include "tests/support/support.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
@@ -150,17 +150,11 @@ TEST(Usage, MissingAndSurplusWords) {
     expect_render_refuses("-D size", {"write -D name=value"});
 }
 
-class WrongFiles : public testing::Test {
+class WrongFiles : public test::FolderTest {
   protected:
     std::string write(const std::string& name, const std::string& text) const {
-        std::filesystem::create_directories(folder_);
-        std::ofstream(folder_ / name) << text;
-        return (folder_ / name).string();
+        return FolderTest::write(name, text).string();
     }
-
-    // One for each test: they may run at the same time.
-    const std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "wrong-files" /
-                                          testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
 TEST_F(WrongFiles, FormatsOfOthersSayHowToConvert) {

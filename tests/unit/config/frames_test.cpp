@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/refusal.h"
+
 namespace treefarm {
 namespace {
 
@@ -11,12 +13,7 @@ std::vector<int> frames(std::string_view text) {
 }
 
 std::string complaint(std::string_view text) {
-    try {
-        frames(text);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "accepted";
+    return test::refusal_of([&] { frames(text); }, "accepted");
 }
 
 using Numbers = std::vector<int>;

@@ -8,6 +8,7 @@
 #include "common/config/check_job.h"
 #include "common/config/job_keys.h"
 #include "common/config/job_reader.h"
+#include "tests/support/refusal.h"
 #include "tests/support/support.h"
 
 namespace treefarm {
@@ -20,12 +21,7 @@ Job job_of(const std::string& toml) {
 }
 
 std::string message_of(const std::string& toml) {
-    try {
-        job_of(toml);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "no error";
+    return test::refusal_of([&] { job_of(toml); }, "no error");
 }
 
 TEST(Job, PathsMustEnd) {
@@ -271,7 +267,7 @@ TEST(Job, TheBsdfFractionIsANumberOrLearned) {
         EXPECT_NE(message_of(std::string("guiding.bsdf_fraction = ") + bad), "no error") << bad;
 }
 
-TEST(Job, BrokenTomlHasAPlace) {
+TEST(Job, BrokenTomlHasALocation) {
     EXPECT_EQ(message_of("[budget]\nspp = = 3\n").substr(0, 13), "job.toml:2:7:");
     EXPECT_NE(message_of("[budget]\nspp = 3\nspp = 4\n").find("job.toml:3:"), std::string::npos);
     EXPECT_EQ(message_of("[budget]\nspp = = 3\n").find('\n'), std::string::npos);

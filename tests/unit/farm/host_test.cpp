@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "coordinator/farm/memory_check.h"
+#include "tests/support/refusal.h"
 
 namespace treefarm {
 namespace {
@@ -31,12 +32,7 @@ std::string refusal(const MemoryPlan& plan, const Host& own, const std::vector<H
     Roster roster(1);
     for (std::size_t k = 0; k < workers.size(); ++k)
         roster.admit(static_cast<int>(k) + 1, workers[k], 0);
-    try {
-        check_memory(plan, own, roster, "scene.xml");
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return test::refusal_of([&] { check_memory(plan, own, roster, "scene.xml"); });
 }
 
 TEST(Host, KnowsItself) {

@@ -130,7 +130,7 @@ TEST(Ledger, APassMayHaveUnitsOfSeveralKinds) {
         std::find_if(units.begin(), units.end(), [](const WorkUnit& u) { return u.kind == UnitKind::light_paths; });
     EXPECT_EQ(ledger.reclaim(1), units.size());
     EXPECT_EQ(ledger.issue(2, some(1000)).size(), units.size());
-    EXPECT_EQ(ledger.judge(1, std::vector{*range}), Verdict::lie) << "it was taken from worker 1";
+    EXPECT_EQ(ledger.judge(1, std::vector{*range}), Verdict::protocol_error) << "it was taken from worker 1";
     EXPECT_EQ(ledger.accept(2, units), Verdict::accepted);
     EXPECT_TRUE(ledger.complete());
 }
@@ -154,15 +154,16 @@ TEST(Ledger, AcceptsOnlyWhatTheWorkerHasAndOnlyOnce) {
     Ledger ledger(plan(), 64, 32, 32);
     const auto mine = ledger.issue(1, some(1));
     const auto other = ledger.issue(2, some(1));
-    EXPECT_EQ(ledger.accept(2, mine), Verdict::lie);
-    EXPECT_EQ(ledger.accept(1, std::vector{mine[0], other[0]}), Verdict::lie) << "one of them is not worker 1's";
-    EXPECT_EQ(ledger.accept(1, std::vector{mine[0], mine[0]}), Verdict::lie) << "twice in one result";
+    EXPECT_EQ(ledger.accept(2, mine), Verdict::protocol_error);
+    EXPECT_EQ(ledger.accept(1, std::vector{mine[0], other[0]}), Verdict::protocol_error)
+        << "one of them is not worker 1's";
+    EXPECT_EQ(ledger.accept(1, std::vector{mine[0], mine[0]}), Verdict::protocol_error) << "twice in one result";
     EXPECT_EQ(ledger.done(), 0u) << "a refused result must leave no trace";
     EXPECT_EQ(ledger.accept(1, mine), Verdict::accepted);
-    EXPECT_EQ(ledger.accept(1, mine), Verdict::lie) << "accepted twice";
+    EXPECT_EQ(ledger.accept(1, mine), Verdict::protocol_error) << "accepted twice";
     WorkUnit forged = other[0];
     forged.chunk = 9;
-    EXPECT_EQ(ledger.accept(2, std::vector{forged}), Verdict::lie);
+    EXPECT_EQ(ledger.accept(2, std::vector{forged}), Verdict::protocol_error);
     EXPECT_EQ(ledger.accept(2, other), Verdict::accepted);
     EXPECT_TRUE(ledger.complete());
 }
@@ -174,7 +175,7 @@ TEST(Ledger, WorkOfALostWorkerIsIssuedAgainFirst) {
     EXPECT_EQ(ledger.outstanding(1), 2u);
     EXPECT_EQ(ledger.reclaim(1), 2u);
     EXPECT_EQ(ledger.outstanding(1), 0u);
-    EXPECT_EQ(ledger.accept(1, lost), Verdict::lie) << "a late result of a lost worker counts nothing";
+    EXPECT_EQ(ledger.accept(1, lost), Verdict::protocol_error) << "a late result of a lost worker counts nothing";
     EXPECT_EQ(ledger.issue(2, some(2)), lost);
     EXPECT_EQ(ledger.accept(2, lost), Verdict::accepted);
     EXPECT_EQ(ledger.accept(2, kept), Verdict::accepted);
@@ -206,7 +207,7 @@ TEST(Ledger, TheFirstOfTwoCopiesCounts) {
     EXPECT_EQ(ledger.judge(1, slow), Verdict::late);
     EXPECT_EQ(ledger.accept(1, slow), Verdict::late);
     ledger.drop(1, slow);
-    EXPECT_EQ(ledger.judge(1, copy), Verdict::lie) << "late but once";
+    EXPECT_EQ(ledger.judge(1, copy), Verdict::protocol_error) << "late but once";
     EXPECT_EQ(ledger.issue(2, some(5)), std::vector{slow[0]}) << "what else was in a late result is issued again";
     EXPECT_EQ(ledger.accept(2, std::vector{slow[0]}), Verdict::accepted);
     EXPECT_TRUE(ledger.complete());
@@ -229,14 +230,14 @@ TEST(Ledger, AUnitThatWorkersAreLostOverIsIssuedAlone) {
     EXPECT_EQ(ledger.issue(2, some(5)), std::vector{lost[1]});
     EXPECT_EQ(ledger.accept(2, std::vector{lost[1]}), Verdict::accepted) << "it was not the one";
     EXPECT_EQ(ledger.reclaim(3, true), 1u);
-    EXPECT_EQ(ledger.deadliest(), (std::pair<WorkUnit, std::size_t>(lost[0], 2)));
+    EXPECT_EQ(ledger.worst_poison_unit(), (std::pair<WorkUnit, std::size_t>(lost[0], 2)));
     ledger.forgive(3);
-    EXPECT_EQ(ledger.deadliest().second, 1u) << "worker 3 is back: it was silent, not dead";
+    EXPECT_EQ(ledger.worst_poison_unit().second, 1u) << "worker 3 is back: it was silent, not dead";
     EXPECT_EQ(ledger.issue(2, some(5)), std::vector{lost[0]});
     EXPECT_EQ(ledger.reclaim(2, true), 1u);
     EXPECT_EQ(ledger.issue(4, some(5)), std::vector{lost[0]});
     EXPECT_EQ(ledger.reclaim(4, true), 1u);
-    EXPECT_EQ(ledger.deadliest().second, Ledger::kMostDeaths);
+    EXPECT_EQ(ledger.worst_poison_unit().second, Ledger::kMostDeaths);
 }
 
 /// Whatever is issued, copied, delivered, late, lost and lied about: every atom is done once, and nothing is forgotten.
@@ -263,7 +264,7 @@ TEST(Ledger, EveryAtomIsDoneOnceWhateverHappens) {
                 const std::vector<WorkUnit> sent(bag.end() - std::ptrdiff_t(1 + below(bag.size())), bag.end());
                 bag.resize(bag.size() - sent.size());
                 const Verdict verdict = ledger.accept(worker, sent);
-                ASSERT_NE(verdict, Verdict::lie) << "seed " << seed;
+                ASSERT_NE(verdict, Verdict::protocol_error) << "seed " << seed;
                 if (verdict == Verdict::accepted) {
                     ASSERT_TRUE(cover(marks, kWidth, kHeight, sent)) << "seed " << seed;
                 } else {
@@ -290,7 +291,7 @@ TEST(Ledger, EveryAtomIsDoneOnceWhateverHappens) {
     }
 }
 
-TEST(Ledger, WhatAnEarlierLifeDidIsNotIssuedAndWhatWasDeadlyAlone) {
+TEST(Ledger, WhatAnEarlierLifeDidIsNotIssuedAndPoisonUnitsAlone) {
     constexpr int kWidth = 61, kHeight = 47;
     Ledger before(plan(2), kWidth, kHeight, 16);
     DoneWork done(kWidth, kHeight, 2);
@@ -302,19 +303,19 @@ TEST(Ledger, WhatAnEarlierLifeDidIsNotIssuedAndWhatWasDeadlyAlone) {
         cover(marks, kWidth, kHeight, units);
         before.accept(1, units);
     }
-    const std::vector<WorkUnit> deadly = before.issue(2, some(1));
+    const std::vector<WorkUnit> poison = before.issue(2, some(1));
     before.reclaim(2, true);
     before.issue(3, some(1));
     before.reclaim(3, true);
-    ASSERT_EQ(before.deadly(), (std::vector<DeadlyUnit>{{deadly[0], 2}}));
+    ASSERT_EQ(before.poison_units(), (std::vector<PoisonUnit>{{poison[0], 2}}));
 
-    Ledger after(plan(2), kWidth, kHeight, 9, done, before.deadly());
+    Ledger after(plan(2), kWidth, kHeight, 9, done, before.poison_units());
     EXPECT_EQ(after.done(), before.done());
     EXPECT_EQ(after.total(), before.total());
-    EXPECT_EQ(after.deadly(), before.deadly());
+    EXPECT_EQ(after.poison_units(), before.poison_units());
     after.forgive(1);  // workers of this life have nothing to do with it
     const std::vector<WorkUnit> first = after.issue(1, some(4));
-    EXPECT_EQ(first, deadly);
+    EXPECT_EQ(first, poison);
     EXPECT_TRUE(after.has_suspect(1));
     EXPECT_TRUE(cover(marks, kWidth, kHeight, first));
     while (after.waiting() > 0) {
@@ -323,11 +324,11 @@ TEST(Ledger, WhatAnEarlierLifeDidIsNotIssuedAndWhatWasDeadlyAlone) {
         EXPECT_EQ(after.accept(2, units), Verdict::accepted);
     }
     EXPECT_EQ(after.waiting_paths(), 0u);
-    EXPECT_EQ(after.done() + deadly[0].pixel_count(), after.total());
+    EXPECT_EQ(after.done() + poison[0].pixel_count(), after.total());
     EXPECT_FALSE(after.complete());
     after.reclaim(1, true);
-    EXPECT_EQ(after.deadliest().second, 3u) << "the third death, of all lives";
-    EXPECT_EQ(after.deadly()[0].deaths, 2u) << "the next life gives it one more try";
+    EXPECT_EQ(after.worst_poison_unit().second, 3u) << "the third death, of all lives";
+    EXPECT_EQ(after.poison_units()[0].deaths, 2u) << "the next life gives it one more try";
     EXPECT_EQ(after.accept(3, after.issue(3, some(1))), Verdict::accepted);
     EXPECT_TRUE(after.complete());
     EXPECT_EQ(std::set<int>(marks.begin(), marks.end()), std::set<int>{1});

@@ -94,7 +94,7 @@ class Simulation {
     void send(Ledger& ledger, int number) {
         SimulatedWorker& w = workers_[static_cast<std::size_t>(number)];
         const Verdict verdict = ledger.accept(number, w.finished);
-        EXPECT_NE(verdict, Verdict::lie);
+        EXPECT_NE(verdict, Verdict::protocol_error);
         if (verdict == Verdict::late) ledger.drop(number, w.finished);
         w.finished.clear();
         w.sent = now_;
@@ -106,10 +106,10 @@ class Simulation {
 
     void serve(Ledger& ledger, int number, double& ended) {
         SimulatedWorker& w = workers_[static_cast<std::size_t>(number)];
-        std::map<int, Hand> hands;
+        std::map<int, WorkerRate> rates;
         for (std::size_t i = 0; i < workers_.size(); ++i)
-            hands[static_cast<int>(i)] = {1, workers_[i].measured.paths_per_second()};
-        const Speeds speeds(hands);
+            rates[static_cast<int>(i)] = {1, workers_[i].measured.paths_per_second()};
+        const Speeds speeds(rates);
         std::uint64_t queued = 0;
         for (std::size_t i = 1; i < w.queue.size(); ++i)
             queued += ledger.paths(w.queue[i]);
@@ -154,9 +154,9 @@ struct Case {
     double most;  ///< of the ideal time
 };
 
-class HandingOut : public testing::TestWithParam<Case> {};
+class WorkDistribution : public testing::TestWithParam<Case> {};
 
-TEST_P(HandingOut, IsNearTheIdeal) {
+TEST_P(WorkDistribution, IsNearTheIdeal) {
     Simulation simulation(GetParam().speeds);
     simulation.pass(4.0);  // nobody knows anybody's speed yet
     double sum = 0;
@@ -166,7 +166,7 @@ TEST_P(HandingOut, IsNearTheIdeal) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Farms, HandingOut,
+    Farms, WorkDistribution,
     testing::Values(Case{"alike", {steady(1), steady(1), steady(1), steady(1)}, 8, 1.06},
                     Case{"one_of_two_slow", {steady(1), steady(0.1)}, 6.4, 1.1},
                     Case{"one_of_four_slow", {steady(1), steady(1), steady(1), steady(0.1)}, 8, 1.1},

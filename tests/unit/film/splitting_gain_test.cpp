@@ -28,7 +28,7 @@ TEST(SplittingGain, ComparesVarianceAndRays) {
     stats.split_path_rays = 100;
     const SplittingGain gain = splitting_gain(stats);
     EXPECT_NEAR(gain.variance, 4, 1e-3);
-    EXPECT_NEAR(gain.found, 1, 1e-3);
+    EXPECT_NEAR(gain.mean_ratio, 1, 1e-3);
     EXPECT_DOUBLE_EQ(gain.rays, 500.0 / 400);
 }
 
@@ -93,7 +93,7 @@ bool may_pay(std::uint32_t spp, SplittingGain gain, bool next_event = false) {
     return splitting_may_pay(pass, gain);
 }
 
-TEST(SplittingGain, HasToQuietenSamples) {
+TEST(SplittingGain, HasToReduceVariance) {
     EXPECT_TRUE(may_pay(64, {})) << "not known";
     EXPECT_TRUE(may_pay(16, {2.0, 1.5, 1.0}));
     EXPECT_TRUE(may_pay(16, {1.04, 1.05, 1.0})) << "whole renders gain more by it";
@@ -143,9 +143,9 @@ TEST(LightSubpathGain, ComparesVarianceAndRays) {
     stats.light_subpaths.alone_rays = 200;
     const LightSubpathGain gain = light_subpath_gain(stats);
     EXPECT_NEAR(gain.noise, 8 / 1.5, 1e-6);
-    EXPECT_NEAR(gain.found, 2 / 2.5, 1e-6);
+    EXPECT_NEAR(gain.mean_ratio, 2 / 2.5, 1e-6);
     EXPECT_DOUBLE_EQ(gain.rays, 2.0);
-    EXPECT_NEAR(gain.at_equal_cost(), 8 / 1.5 / (2 * kPolicy.light_subpaths.ray_cost), 1e-6);
+    EXPECT_NEAR(gain.at_equal_cost(), 8 / 1.5 / (2 * tuned("light_subpaths.ray_cost")), 1e-6);
 }
 
 TEST(LightSubpathGain, OneSampleHasNoVarianceAndNonsenseIsLeftOut) {
@@ -182,7 +182,7 @@ TEST(LightSubpathGain, MissedLightIsNoiseThatNobodyHasSeen) {
     };
     EXPECT_NEAR(noise(1.0), 32 / 0.5, 1e-4) << "camera paths alone show none";
     EXPECT_EQ(noise(1.0, true), noise(1.0)) << "passes of 9 spp: a block of one sample has no variance";
-    const double error = std::sqrt(0.5 / 32), least = kPolicy.light_subpaths.missed_errors * error;
+    const double error = std::sqrt(0.5 / 32), least = tuned("light_subpaths.missed_errors") * error;
     EXPECT_NEAR(noise(1.01 * least), std::pow(1.01 * least / error, 2), 1e-4);
     EXPECT_EQ(noise(0.99 * least), 0) << "within the error";
     EXPECT_EQ(noise(0.0), 0) << "nothing is missed";

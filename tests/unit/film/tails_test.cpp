@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <random>
 #include <set>
 #include <sstream>
@@ -74,23 +73,23 @@ TEST(NoiseShare, IsThatOfTheFewestPixels) {
 }
 
 TEST(LightOrigin, InWordsThatTellThemApart) {
-    EXPECT_EQ(words(LightOrigin{LightFound::met, LightWay::rough_glass, 4}),
+    EXPECT_EQ(words(LightOrigin{LightFound::met, PathClass::rough_glass, 4}),
               "light through rough glass, met by chance");
-    EXPECT_EQ(words(LightOrigin{LightFound::sampled, LightWay::mirror, 3}), "light in mirrors, sampled by next event");
-    EXPECT_EQ(words(LightOrigin{LightFound::sky_met, LightWay::diffuse, 1}),
+    EXPECT_EQ(words(LightOrigin{LightFound::sampled, PathClass::mirror, 3}), "light in mirrors, sampled by next event");
+    EXPECT_EQ(words(LightOrigin{LightFound::sky_met, PathClass::diffuse, 1}),
               "light of the environment that the camera sees");
     std::set<std::string> texts;
     for (std::uint8_t found = 0; found < 4; ++found)
-        for (std::uint8_t way = 0; way < 6; ++way) {
-            const LightOrigin origin{static_cast<LightFound>(found), static_cast<LightWay>(way), 2};
+        for (std::uint8_t path_class = 0; path_class < 6; ++path_class) {
+            const LightOrigin origin{static_cast<LightFound>(found), static_cast<PathClass>(path_class), 2};
             EXPECT_TRUE(is_known(origin));
             texts.insert(words(origin));
         }
     EXPECT_EQ(texts.size(), 24u);
 }
 
-constexpr SurfacePassage kDiffuse{LightWay::diffuse, false}, kGlossy{LightWay::glossy, false},
-    kGlass{LightWay::smooth_glass, true}, kRoughGlass{LightWay::rough_glass, false};
+constexpr SurfacePassage kDiffuse{PathClass::diffuse, false}, kGlossy{PathClass::glossy, false},
+    kGlass{PathClass::smooth_glass, true}, kRoughGlass{PathClass::rough_glass, false};
 
 /// A finder that has been told of a camera's ray along +z, and of a surface that faces it.
 struct Told : OriginFinder {
@@ -110,14 +109,14 @@ TEST(OriginFinder, WhatTheCameraLooksThroughCountsOnlyIfNothingScattersBehind) {
     told.pass(kGlass);
     told.arrive(2, &told.hit);
     told.shine(1.0f);
-    EXPECT_EQ(told.origin(), (LightOrigin{LightFound::met, LightWay::smooth_glass, 2}));
+    EXPECT_EQ(told.origin(), (LightOrigin{LightFound::met, PathClass::smooth_glass, 2}));
     told.next_event(kDiffuse, {Vec3(0, 0, 1), 1.0f, 1.0f, false}, 1.0f, 1.0f, Rgb(2.0f));
-    EXPECT_EQ(told.origin(), (LightOrigin{LightFound::sampled, LightWay::diffuse, 3}));
+    EXPECT_EQ(told.origin(), (LightOrigin{LightFound::sampled, PathClass::diffuse, 3}));
     told.pass(kDiffuse);
     told.pass(kGlass);
     told.arrive(3, nullptr);
     told.shine(3.0f);
-    EXPECT_EQ(told.origin(), (LightOrigin{LightFound::sky_met, LightWay::smooth_glass, 3}));
+    EXPECT_EQ(told.origin(), (LightOrigin{LightFound::sky_met, PathClass::smooth_glass, 3}));
     told.shine(0.5f);
     EXPECT_EQ(told.origin().vertices, 3) << "the largest contribution counts";
 }
@@ -131,28 +130,28 @@ TEST(OriginFinder, SplitPathsGoOnFromWhereTheyWereLeft) {
     told.arrive(3, &told.hit);
     told.split(2, Rgb(1.0f));
     told.shine(1.0f);
-    EXPECT_EQ(told.origin().way, LightWay::rough_glass);
+    EXPECT_EQ(told.origin().path_class, PathClass::rough_glass);
     const auto go_on = [&](const SurfacePassage& surface, float light) {
         told.split_path({});
         told.arrive(3, &told.hit);
         told.pass(surface);
         told.arrive(4, &told.hit);
         told.shine(light);
-        return told.origin().way;
+        return told.origin().path_class;
     };
-    EXPECT_EQ(go_on(kDiffuse, 2.0f), LightWay::diffuse);
-    EXPECT_EQ(go_on(kGlossy, 3.0f), LightWay::glossy);
-    EXPECT_EQ(go_on(kDiffuse, 4.0f), LightWay::rough_glass) << "left behind the glass";
+    EXPECT_EQ(go_on(kDiffuse, 2.0f), PathClass::diffuse);
+    EXPECT_EQ(go_on(kGlossy, 3.0f), PathClass::glossy);
+    EXPECT_EQ(go_on(kDiffuse, 4.0f), PathClass::rough_glass) << "left behind the glass";
 }
 
-TEST(OriginFinder, TheOtherWayOutOfGlassBeginsAtIt) {
+TEST(OriginFinder, TheOtherBranchOutOfGlassBeginsAtIt) {
     Told told;
     told.pass(kGlass);
     for (const float z : {1.0f, -1.0f}) {
-        told.other_way({Vec3(0.0f), Vec3(0, 0, z)}, Rgb(1.0f));
+        told.other_branch({Vec3(0.0f), Vec3(0, 0, z)}, Rgb(1.0f));
         told.arrive(2, nullptr);
         told.shine(2.0f - z);
-        EXPECT_EQ(told.origin().way, z > 0 ? LightWay::smooth_glass : LightWay::mirror);
+        EXPECT_EQ(told.origin().path_class, z > 0 ? PathClass::smooth_glass : PathClass::mirror);
     }
 }
 
@@ -240,8 +239,8 @@ struct Tailed {
         image.longest_pass = 4;
         image.weight = {0.25, 0.75};
         passes[0].stats.tails.add({100.0f, 0, 1, 1, 1, {}});
-        passes[1].stats.tails.add({8.0f, 1, 2, 2, 2, {LightFound::sampled, LightWay::mirror, 3}});
-        passes[2].stats.tails.add({2.0f, 2, 120, 44, 61, {LightFound::met, LightWay::rough_glass, 4}});
+        passes[1].stats.tails.add({8.0f, 1, 2, 2, 2, {LightFound::sampled, PathClass::mirror, 3}});
+        passes[2].stats.tails.add({2.0f, 2, 120, 44, 61, {LightFound::met, PathClass::rough_glass, 4}});
     }
 };
 

@@ -155,7 +155,7 @@ TEST(Instances, LookLikeTheFlattenedMeshes) {
     EXPECT_LT(different, 60) << "of 1024 pixels: paths that pass an edge on the other side";
 }
 
-TEST(Instances, AnalyticMembersKeepTheirPlace) {
+TEST(Instances, AnalyticMembersKeepTheirPosition) {
     Scene scene;
     add_shape(scene, Sphere{Vec3(0.0f), 1.0f, false}, kNone);
     add_shape(scene, Disk{Vec3(5, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, kNone);

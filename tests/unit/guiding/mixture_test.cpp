@@ -40,7 +40,7 @@ TEST(Mixture, BinsCoverAllDensities) {
 
 TEST(Mixture, FollowsWhatFitsBetter) {
     EXPECT_NEAR(best_bsdf_fraction(only(kMixtureBins - 1), 0.5, 0.0), 1.0, 1e-6);
-    EXPECT_NEAR(best_bsdf_fraction(only(0), 0.5, 0.0), kPolicy.learning.least_bsdf_fraction, 1e-6);
+    EXPECT_NEAR(best_bsdf_fraction(only(0), 0.5, 0.0), tuned("learning.least_bsdf_fraction"), 1e-6);
 }
 
 TEST(Mixture, WithoutDataKeepsThePrior) {
@@ -55,7 +55,7 @@ TEST(Mixture, IsTheMaximumOfTheObjective) {
     histogram[2] = 9;
     for (const double prior : {0.2, 0.5, 0.9}) {
         const double best = best_bsdf_fraction(histogram, prior, 3.0);
-        for (double a = kPolicy.learning.least_bsdf_fraction; a < 0.999; a += 0.001)
+        for (double a = tuned("learning.least_bsdf_fraction"); a < 0.999; a += 0.001)
             EXPECT_GE(objective(histogram, prior, 3.0, best) + 1e-9, objective(histogram, prior, 3.0, a)) << a;
     }
 }

@@ -6,7 +6,6 @@
 
 #include <cmath>
 
-#include "common/base/policy.h"
 #include "common/guiding/statistics/cell_accumulator.h"
 #include "common/math/direction_map.h"
 #include "worker/guides/qtable_walk.h"
@@ -22,7 +21,7 @@ QTableModel two_regions() {
     return QTableGuide::first(Box3(Vec3(0.0f), Vec3(1.0f)), settings);
 }
 
-QTableModel learned(QTableLearner& learner, const QTableModel& model, const RecordLog& log) {
+QTableModel learned(QTableGuide::Learner& learner, const QTableModel& model, const RecordLog& log) {
     const QTableSampler guide(model);
     CellAccumulator<QTableSampler> accumulator(model.pass, guide);
     accumulator.commit(log.records, log.counts, {});
@@ -36,7 +35,7 @@ Record visit(std::uint32_t region, std::uint32_t code, float value) {
 
 TEST(QTable, IsTheMeanOfVisitsThoseOfEarlierPassesAtHalfTheirWeight) {
     const std::uint32_t code = direction_to_code(normalize(Vec3(0.2f, 0.1f, 1.0f)));
-    QTableLearner learner;
+    QTableGuide::Learner learner;
     QTableModel model = two_regions();
     RecordLog log;
     log.begin(2);
@@ -79,9 +78,9 @@ TEST(QTable, SamplesInProportionToQButForAFloor) {
     QTableModel model = two_regions();
     const std::uint32_t bright = direction_to_code(normalize(Vec3(0.2f, 0.1f, 1.0f))),
                         dark = direction_to_code(normalize(Vec3(0.2f, 0.1f, -1.0f)));
-    model.q[StrataTable::cell(0, bright)] = 64.0f;
+    model.q[QTableSampler::cell(0, bright)] = 64.0f;
     const QTableSampler guide(model);
-    const double floor = kPolicy.grids.table_floor, total = 64 + 63 * floor;
+    const double floor = kTableFloor, total = 64 + 63 * floor;
     EXPECT_NEAR(double(guide.pdf(0, bright) / guide.pdf(0, dark)), 64 / floor, 1.0);
     EXPECT_NEAR(double(guide.pdf(0, bright)), 64 / total * kStrata / (4 * 3.14159265), 1e-4);
     EXPECT_EQ(guide.radiance(0, dark), 0.0f);
@@ -115,7 +114,7 @@ TEST(QTable, TwoPlanesHaveTheirFixedPoint) {
     const double albedo[] = {0.8, 0.5}, emitted = 1.0, first = emitted / (1 - albedo[0] * albedo[1]);
     const std::uint32_t code[] = {direction_to_code(normalize(Vec3(1.0f, 0.3f, 0.2f))),
                                   direction_to_code(normalize(Vec3(-1.0f, 0.3f, 0.2f)))};
-    QTableLearner learner;
+    QTableGuide::Learner learner;
     QTableModel model = two_regions();
     double expected[] = {0, 0}, visits = 0;
     for (int pass = 1; pass <= 60; ++pass) {

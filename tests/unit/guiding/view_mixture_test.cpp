@@ -56,7 +56,7 @@ struct OneView {
         sums.add_mixture(1, static_cast<std::uint8_t>(bin), std::uint64_t{records} << kMeanRecordBits);
         const bool keep = learner.judge(tree, sums, last_update)[0].keep;
         const ViewOrigin same{0, 0};
-        learner.hand_down({&same, 1}, tree);
+        learner.set_fractions({&same, 1}, tree);
         return keep;
     }
 };

@@ -11,12 +11,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <limits>
 
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
+#include "tests/support/refusal.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
@@ -24,20 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path fresh(const std::string& name) {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    const fs::path folder = fs::path(testing::TempDir()) / (std::string("exr_") + test->name());
-    fs::create_directories(folder);
+    const fs::path folder = test::test_folder();
     fs::remove(folder / name);
     return folder / name;
-}
-
-std::string slurp(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-void spill(const fs::path& path, const std::string& bytes) {
-    std::ofstream(path, std::ios::binary) << bytes;
 }
 
 Image sample_image() {
@@ -51,12 +41,7 @@ Image sample_image() {
 
 /// The message of the InputError that reading throws; empty if it throws none.
 std::string refusal(const fs::path& path) {
-    try {
-        read_exr(path);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return test::refusal_of([&] { read_exr(path); });
 }
 
 TEST(Exr, KeepsFloatsNamesAndAttributes) {
@@ -160,18 +145,18 @@ TEST(Exr, RefusesWhatIsNoImageAndNamesTheFile) {
     EXPECT_NE(refusal(missing).find("missing.exr: no such file"), std::string::npos) << refusal(missing);
     EXPECT_NE(refusal(missing.parent_path()).find("not a regular file"), std::string::npos);
     const fs::path text = fresh("text.exr");
-    spill(text, "this is text");
+    test::write_file(text, "this is text");
     EXPECT_NE(refusal(text).find("text.exr: not an OpenEXR file"), std::string::npos) << refusal(text);
-    spill(text, "");
+    test::write_file(text, "");
     EXPECT_NE(refusal(text).find("not an OpenEXR file"), std::string::npos) << refusal(text);
 }
 
 TEST(Exr, RefusesEveryTruncation) {
     const fs::path path = fresh("a.exr"), cut = fresh("cut.exr");
     write_exr(path, sample_image());
-    const std::string bytes = slurp(path);
+    const std::string bytes = test::read_file(path);
     for (std::size_t size = 0; size < bytes.size(); size += 7) {
-        spill(cut, bytes.substr(0, size));
+        test::write_file(cut, bytes.substr(0, size));
         EXPECT_NE(refusal(cut).find("cut.exr"), std::string::npos) << "cut to " << size << " of " << bytes.size();
     }
 }
@@ -179,12 +164,12 @@ TEST(Exr, RefusesEveryTruncation) {
 TEST(Exr, SurvivesEveryCorruptByte) {
     const fs::path path = fresh("a.exr"), bad = fresh("bad.exr");
     write_exr(path, sample_image());
-    const std::string bytes = slurp(path);
+    const std::string bytes = test::read_file(path);
     int refused = 0;
     for (std::size_t at = 0; at < bytes.size(); ++at) {
         std::string changed = bytes;
         changed[at] = static_cast<char>(changed[at] ^ 0xff);
-        spill(bad, changed);
+        test::write_file(bad, changed);
         try {
             const ExrImage image = read_exr(bad);  // a changed value or name is still an image
             EXPECT_LE(image.image.data.size(), kMaxImageValues);
@@ -198,7 +183,7 @@ TEST(Exr, SurvivesEveryCorruptByte) {
 TEST(Exr, RefusesAbsurdSizesBeforeAllocating) {
     const fs::path path = fresh("a.exr"), huge = fresh("huge.exr");
     write_exr(path, sample_image());
-    std::string bytes = slurp(path);
+    std::string bytes = test::read_file(path);
     const std::size_t at = bytes.find("dataWindow");
     ASSERT_NE(at, std::string::npos);
     const std::size_t box = at + std::string("dataWindow").size() + 1 + std::string("box2i").size() + 1 + 4;
@@ -207,7 +192,7 @@ TEST(Exr, RefusesAbsurdSizesBeforeAllocating) {
         for (const std::size_t offset : {std::size_t{8}, std::size_t{12}})
             for (std::size_t i = 0; i < 4; ++i)
                 changed[box + offset + i] = static_cast<char>(static_cast<std::uint32_t>(side) >> (8 * i));
-        spill(huge, changed);
+        test::write_file(huge, changed);
         EXPECT_NE(refusal(huge).find("huge.exr"), std::string::npos) << side;
     }
 }
@@ -216,7 +201,7 @@ TEST(Exr, TheSameImageGivesTheSameBytes) {
     const fs::path a = fresh("a.exr"), b = fresh("b.exr");
     write_exr(a, sample_image(), {{"x", "1"}});
     write_exr(b, sample_image(), {{"x", "1"}});
-    EXPECT_EQ(slurp(a), slurp(b));
+    EXPECT_EQ(test::read_file(a), test::read_file(b));
 }
 
 TEST(Exr, WritingReportsWhatFailed) {
@@ -235,7 +220,7 @@ TEST(AtomicFile, ReplacesWholeFilesAndLeavesNothingBehind) {
     const std::vector<std::uint8_t> first(100, 1), second(3, 2);
     write_file_atomically(path, first);
     write_file_atomically(path, second);
-    EXPECT_EQ(slurp(path), "\x02\x02\x02");
+    EXPECT_EQ(test::read_file(path), "\x02\x02\x02");
     EXPECT_EQ(std::distance(fs::directory_iterator(path.parent_path()), fs::directory_iterator()), 1);
 }
 
@@ -244,7 +229,7 @@ TEST(AtomicFile, ReplacesFilesThatNeedNotOutliveThePower) {
     for (const char content : {'1', '2'}) {
         const std::vector<std::uint8_t> bytes(10, static_cast<std::uint8_t>(content));
         write_file_atomically(path, bytes, Outlives::process);
-        EXPECT_EQ(slurp(path), std::string(10, content));
+        EXPECT_EQ(test::read_file(path), std::string(10, content));
     }
     EXPECT_EQ(std::distance(fs::directory_iterator(path.parent_path()), fs::directory_iterator()), 1);
 }
@@ -264,7 +249,7 @@ TEST(AtomicFile, WritesThroughLinksAndToDevices) {
     fs::create_symlink(path, link);
     write_file_atomically(link, new_bytes);
     EXPECT_TRUE(fs::is_symlink(link));
-    EXPECT_EQ(slurp(path), "A");
+    EXPECT_EQ(test::read_file(path), "A");
     write_file_atomically("/dev/null", new_bytes);
     EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }

@@ -10,6 +10,7 @@
 #include "common/image/exr.h"
 #include "coordinator/input/images/hdr.h"
 #include "coordinator/input/images/stored_image.h"
+#include "tests/support/refusal.h"
 #include "tests/support/tiny_images.h"
 
 namespace treefarm {
@@ -27,12 +28,7 @@ class HostileImages : public ::testing::Test {
     }
     /// The message of the InputError; empty if the image is read.
     static std::string refusal(const std::string& bytes) {
-        try {
-            read(bytes);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
+        return test::refusal_of([&] { read(bytes); });
     }
     static void expect_refused(const std::string& bytes, const char* why) {
         EXPECT_NE(refusal(bytes).find(why), std::string::npos) << refusal(bytes);

@@ -4,15 +4,14 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 
-#include "common/base/error.h"
 #include "common/image/exr.h"
 #include "coordinator/input/images/color_channels.h"
 #include "coordinator/input/images/hdr.h"
 #include "coordinator/input/images/stored_image.h"
+#include "tests/support/refusal.h"
 
 namespace treefarm {
 namespace {
@@ -27,12 +26,7 @@ class PlainImages : public ::testing::Test {
         return read_stored_image(path);
     }
     static std::string refusal(const std::string& bytes, const char* extension = "") {
-        try {
-            read(bytes, extension);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
+        return test::refusal_of([&] { read(bytes, extension); });
     }
     static void expect_pixels(const StoredImage& image) {
         EXPECT_EQ(image.width, 2);
@@ -100,14 +94,7 @@ TEST_F(PlainImages, ColoursOfOneLayer) {
               (Names{"View.Combined.R", "View.Combined.G", "View.Combined.B", "View.Combined.A"}));
     EXPECT_EQ(chosen({"blue", "green", "red"}), (Names{"red", "green", "blue"}));
     EXPECT_EQ(chosen({"depth.Y"}), Names{"depth.Y"});
-    const auto message = [&](const Names& names) {
-        try {
-            chosen(names);
-        } catch (const InputError& error) {
-            return std::string(error.what());
-        }
-        return std::string();
-    };
+    const auto message = [&](const Names& names) { return test::refusal_of([&] { chosen(names); }); };
     EXPECT_NE(message({"a.B", "a.G", "a.R", "b.B", "b.G", "b.R"}).find("several layers: a, b"), std::string::npos);
     EXPECT_NE(message({"U", "V"}).find("but U, V"), std::string::npos);
     const std::filesystem::path path = std::filesystem::path(::testing::TempDir()) / "layer.exr";

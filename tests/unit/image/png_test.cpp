@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -11,6 +10,8 @@
 #include "common/base/error.h"
 #include "common/image/srgb.h"
 #include "tests/support/read_ldr.h"
+#include "tests/support/refusal.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
@@ -18,20 +19,13 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path fresh(const std::string& name) {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    const fs::path folder = fs::path(testing::TempDir()) / (std::string("png_") + test->name());
-    fs::create_directories(folder);
+    const fs::path folder = test::test_folder();
     fs::remove(folder / name);
     return folder / name;
 }
 
 std::string refusal(const fs::path& path) {
-    try {
-        read_ldr(path, Encoding::srgb);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return test::refusal_of([&] { read_ldr(path, Encoding::srgb); });
 }
 
 TEST(Png, SrgbIsItsOwnInverse) {

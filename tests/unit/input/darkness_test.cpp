@@ -2,8 +2,6 @@
 // Why an image may be black: what dark_causes() finds, and that it finds nothing where there is light.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "coordinator/input/lint/lint.h"
 #include "coordinator/input/load.h"
 #include "tests/support/support.h"

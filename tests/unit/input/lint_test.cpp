@@ -59,7 +59,7 @@ TEST(Lint, NumbersThatAreNone) {
     EXPECT_TRUE(find(lint(scene), "numbers"));
 }
 
-TEST(Lint, ScaleAndPlace) {
+TEST(Lint, ScaleAndPosition) {
     const auto kinds = [](float scale, const Vec3& offset) { return kinds_of(lint(test::cornell_box(scale, offset))); };
     EXPECT_TRUE(kinds(1e-5f, Vec3(0.0f)).contains("scale"));
     EXPECT_TRUE(kinds(1e8f, Vec3(0.0f)).contains("scale"));

@@ -79,9 +79,9 @@ TEST(FirstSurface, AnInstanceIsAShapeOfItsOwnWithItsMembersMaterial) {
     scene.shapes.back().group = 0;
     scene.group_count = 1;
     for (const float x : {0.0f, 5.0f}) {
-        Imath::M44f place;
-        place.setTranslation(Vec3(x, 0, 10));
-        add_shape(scene, Instance{0, place}, kNone);
+        Imath::M44f to_world;
+        to_world.setTranslation(Vec3(x, 0, 10));
+        add_shape(scene, Instance{0, to_world}, kNone);
     }
     const Layers image = render_layers(scene, "shape,material,position");
     for (std::size_t p = 0; p < 64; ++p) {

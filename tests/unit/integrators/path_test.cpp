@@ -267,7 +267,7 @@ TEST(Path, StrictNormalsDropDisagreement) {
     }
 }
 
-TEST(Path, TheFilmsDoorRefusesWhatIsNoRadiance) {
+TEST(Path, TheFilmRefusesWhatIsNoRadiance) {
     Scene scene = test::furnace(0.5f, 1.0f, 2.0f, Vec3(0.0f));
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), kInfinity, -1.0f}) {
         std::get<AreaEmitter>(scene.emitters[0].kind).radiance = Rgb(1.0f, bad, 1.0f);

@@ -57,7 +57,7 @@ double mirrored(float cosine) {
     return 2 * once / (1 + once);
 }
 
-TEST(SplitGlass, HasNoNoiseWhereBothWaysAreLikely) {
+TEST(SplitGlass, HasNoNoiseWhereBothBranchesAreLikely) {
     const double r = mirrored(0.1f);
     ASSERT_GT(r, 0.25);
     ASSERT_LT(r, 0.9);
@@ -125,7 +125,7 @@ TEST(SplitGlass, IsTheSameHoweverTheImageIsCut) {
     EXPECT_GT(whole_log.records.size(), 1000u);
 }
 
-TEST(SplitGlass, OnlyGlassHasAnotherWay) {
+TEST(SplitGlass, OnlyGlassHasAnotherBranch) {
     const Vec3 wo = normalize(Vec3(0.6f, 0.0f, 0.8f)), steep = normalize(Vec3(0.9f, 0.0f, 0.3f));
     const BsdfRandom first{0.0f, Vec2(0.5f)};
     const test::PreparedMaterial glass(DielectricMaterial{1.5f, Rgb(1.0f), Rgb(1.0f), {}}),
@@ -133,17 +133,17 @@ TEST(SplitGlass, OnlyGlassHasAnotherWay) {
         mirror(ConductorMaterial{Rgb(0.2f), Rgb(3.0f), Rgb(1.0f), {}});
     for (const Bsdf* bsdf : {&glass.front(), &glass.back(), &thin.front()}) {
         const Vec3 from = bsdf == &glass.back() ? normalize(Vec3(0.2f, 0.0f, 0.9f)) : wo;
-        const BsdfSample up = bsdf->sample(from, first), down = bsdf->other_way(from, up.wi);
+        const BsdfSample up = bsdf->sample(from, first), down = bsdf->other_branch(from, up.wi);
         EXPECT_GT(up.wi.z, 0.0f);
         EXPECT_LT(down.wi.z, 0.0f);
         EXPECT_NEAR(up.pdf + down.pdf, 1.0, 1e-6);
-        EXPECT_EQ(bsdf->other_way(from, down.wi).wi, up.wi);
+        EXPECT_EQ(bsdf->other_branch(from, down.wi).wi, up.wi);
     }
-    EXPECT_EQ(glass.back().other_way(steep, glass.back().sample(steep, first).wi).pdf, 0.0f) << "total reflection";
-    EXPECT_EQ(mirror.front().other_way(wo, mirror.front().sample(wo, first).wi).pdf, 0.0f);
+    EXPECT_EQ(glass.back().other_branch(steep, glass.back().sample(steep, first).wi).pdf, 0.0f) << "total reflection";
+    EXPECT_EQ(mirror.front().other_branch(wo, mirror.front().sample(wo, first).wi).pdf, 0.0f);
 }
 
-TEST(SplitGlass, NoPathIsLostOnAWayThatIsBlack) {
+TEST(SplitGlass, NoPathIsLostOnABranchThatIsBlack) {
     const Vec3 wo = normalize(Vec3(0.6f, 0.0f, 0.8f));
     for (const float lobe : {0.0f, 0.5f, 0x1.fffffep-1f}) {
         const test::PreparedMaterial only_mirrors(DielectricMaterial{1.5f, Rgb(1.0f), Rgb(0.0f), {}}),
@@ -154,12 +154,12 @@ TEST(SplitGlass, NoPathIsLostOnAWayThatIsBlack) {
         EXPECT_FLOAT_EQ(up.f_cos.x, fresnel_dielectric(wo.z, 1.5f).reflectance);
         EXPECT_EQ(down.pdf, 1.0f);
         EXPECT_NEAR(down.f_cos.x, 1 - mirrored(wo.z), 1e-6);
-        EXPECT_EQ(only_mirrors.front().other_way(wo, up.wi).pdf, 0.0f);
-        EXPECT_EQ(only_lets_through.front().other_way(wo, down.wi).pdf, 0.0f);
+        EXPECT_EQ(only_mirrors.front().other_branch(wo, up.wi).pdf, 0.0f);
+        EXPECT_EQ(only_lets_through.front().other_branch(wo, down.wi).pdf, 0.0f);
     }
 }
 
-TEST(PathRecorder, AGlassSplitCarriesNothingForTheOtherWay) {
+TEST(PathRecorder, AGlassSplitCarriesNothingForTheOtherBranch) {
     PathRecorder<SdTreeWalk<true>> recorder;
     RecordLog log;
     log.begin(2);
@@ -168,7 +168,7 @@ TEST(PathRecorder, AGlassSplitCarriesNothingForTheOtherWay) {
     recorder.add_vertex({0}, 11, 0.5f, Rgb(0.5f), {3}, 0);
     recorder.add_emission(Rgb(1.0f));
     EXPECT_EQ(recorder.commit(log), 1u);
-    recorder.begin_other_way(Rgb(0.1f));
+    recorder.begin_other_branch(Rgb(0.1f));
     recorder.add_reflected(recorder.vertex_count(), Rgb(100.0f));
     recorder.add_vertex({1}, 22, 4.0f, Rgb(0.25f), {4}, 0);
     recorder.add_emission(Rgb(8.0f));

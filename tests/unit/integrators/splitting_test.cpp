@@ -191,7 +191,7 @@ TEST_F(SplittingInARoom, UnsplitSamplesAreThoseOfPathsThatAreNotSplit) {
     pass_.spp = 1024;  // rare samples make most of the noise
     const Rendered split = render(job_, part(0, 0, 24, 16));
     const SplittingGain gain = splitting_gain(split.stats);
-    EXPECT_NEAR(gain.found, 1, 0.1);
+    EXPECT_NEAR(gain.mean_ratio, 1, 0.1);
     EXPECT_GT(gain.variance, 1.1);
     EXPECT_GT(gain.rays, 1.05);
     Job alone = job_;
@@ -255,7 +255,7 @@ TEST(Splitting, FractionsSumToOne) {
                       log, stats);
     EXPECT_GT(stats.rays, 6 * stats.paths + stats.paths / 2) << "the test must split paths: of six edges each";
     const SplittingGain gain = splitting_gain(stats);
-    EXPECT_NEAR(gain.found, 1, 1e-6) << "alone they carry the same";
+    EXPECT_NEAR(gain.mean_ratio, 1, 1e-6) << "alone they carry the same";
     EXPECT_NEAR(gain.variance, 1, 1e-6) << "of pixels across regions, whose scales differ";
     EXPECT_EQ(stats.rays - stats.split_path_rays, 6 * stats.paths);
     for (const PixelEstimate& pixel : pixels) {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +11,7 @@
 #include <thread>
 
 #include "common/comm/run_key.h"
+#include "common/runs/run_files.h"
 #include "coordinator/launch/host_keys.h"
 #include "coordinator/launch/host_pool.h"
 #include "coordinator/launch/host_probe.h"

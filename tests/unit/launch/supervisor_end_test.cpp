@@ -10,7 +10,7 @@ namespace {
 
 using test::LaunchWorld;
 
-TEST(Supervisor, PausesGrowAndDeathsAtOnePlaceEndItAndNameIt) {
+TEST(Supervisor, PausesGrowAndDeathsAtOneStageEndItAndNameIt) {
     LaunchWorld world;
     while (!world.end) {
         world.run_to_pass(7);
@@ -28,7 +28,7 @@ TEST(Supervisor, PausesGrowAndDeathsAtOnePlaceEndItAndNameIt) {
     EXPECT_GE(at[5] - at[4], 16);
 }
 
-TEST(Supervisor, DeathsAtSeveralPlacesNameTheLast) {
+TEST(Supervisor, DeathsAtSeveralStagesNameTheLast) {
     LaunchWorld world({.restarts = 1});
     world.run_to_pass(3);
     world.die();
@@ -64,10 +64,7 @@ TEST(Supervisor, ProgressBeginsTheCountAnew) {
 TEST(Supervisor, WithoutRestartsTheFirstDeathEndsIt) {
     LaunchWorld world({.restarts = 0});
     world.run_to_pass();
-    world.die();
-    world.step();
-    ASSERT_TRUE(world.end);
-    EXPECT_EQ(world.end->code, 1);
+    ASSERT_EQ(world.code_after_death(), 1);
     EXPECT_NE(world.end->words.find("no restarts are left"), std::string::npos);
 }
 
@@ -140,10 +137,7 @@ TEST(Supervisor, AStopThatIsNotHeardEndsByForce) {
     EXPECT_TRUE(world.did("terminate")) << "it goes on rendering";
     world.pass(3);
     EXPECT_TRUE(world.did("kill"));
-    world.die();
-    world.step();
-    ASSERT_TRUE(world.end);
-    EXPECT_EQ(world.end->code, 3);
+    ASSERT_EQ(world.code_after_death(), 3);
     EXPECT_EQ(world.attempt, 1) << "a person's wish is no reason to start again";
 }
 
@@ -158,10 +152,7 @@ TEST(Supervisor, ASecondStopGivesUpWhatIsNotWritten) {
     EXPECT_TRUE(world.did("terminate"));
     world.pass(4);
     EXPECT_TRUE(world.did("kill"));
-    world.die();
-    world.step();
-    ASSERT_TRUE(world.end);
-    EXPECT_EQ(world.end->code, 3);
+    ASSERT_EQ(world.code_after_death(), 3);
 }
 
 TEST(Supervisor, AStopBeforeTheFirstSignOfLifeIsNoSignalThatNobodyKnows) {
@@ -171,10 +162,7 @@ TEST(Supervisor, AStopBeforeTheFirstSignOfLifeIsNoSignalThatNobodyKnows) {
     world.step();
     EXPECT_FALSE(world.did("stop"));
     EXPECT_TRUE(world.did("terminate"));
-    world.die();
-    world.step();
-    ASSERT_TRUE(world.end);
-    EXPECT_EQ(world.end->code, 3);
+    ASSERT_EQ(world.code_after_death(), 3);
 }
 
 TEST(Supervisor, AStopBetweenTwoAttemptsStartsNone) {

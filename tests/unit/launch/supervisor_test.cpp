@@ -30,10 +30,7 @@ TEST(Supervisor, ASummaryIsEnough) {
     LaunchWorld world;
     world.run_to_pass();
     world.summary = 4;
-    world.die();
-    world.step();
-    ASSERT_TRUE(world.end);
-    EXPECT_EQ(world.end->code, 4);
+    ASSERT_EQ(world.code_after_death(), 4);
 }
 
 TEST(Supervisor, OneThatNeverSpeaksIsKilledAndStartedAgain) {
@@ -96,10 +93,7 @@ TEST(Supervisor, ACoordinatorThatIsGoneWithAResultHasEnded) {
     world.coordinator_gone = true;
     world.pass(10);
     EXPECT_FALSE(world.did("terminate")) << "its launcher may end in order";
-    world.die();
-    world.step();
-    ASSERT_TRUE(world.end);
-    EXPECT_EQ(world.end->code, 4);
+    ASSERT_EQ(world.code_after_death(), 4);
 }
 
 TEST(Supervisor, OneThatBeatsWithoutProgressIsKilledLater) {
@@ -137,10 +131,7 @@ TEST(Supervisor, ALauncherThatOutlivesTheResultIsEndedAndTheResultStands) {
     EXPECT_TRUE(world.did("terminate"));
     world.pass(3);
     EXPECT_TRUE(world.did("kill"));
-    world.die();
-    world.step();
-    ASSERT_TRUE(world.end);
-    EXPECT_EQ(world.end->code, 0);
+    ASSERT_EQ(world.code_after_death(), 0);
     EXPECT_EQ(world.attempt, 1);
 }
 

@@ -107,7 +107,7 @@ struct PathDensities {
     std::vector<double> onwards, backwards;  ///< per steradian, at each vertex, to the next one and the one before
     std::vector<double> to_next, to_before;  ///< turn them into densities per area there
     std::vector<bool> delta;
-    double place, next_event, film;  ///< of the lamp's point either way; of vertex k - 1 from the lens
+    double position, next_event, film;  ///< of the lamp's point either way; of vertex k - 1 from the lens
 
     template <class Random>
     PathDensities(int edges, Random&& random) : k(edges), delta(static_cast<std::size_t>(edges) + 1, false) {
@@ -119,14 +119,14 @@ struct PathDensities {
             to_next.push_back(number());
             to_before.push_back(number());
         }
-        place = number();
+        position = number();
         next_event = number();
         film = number();
     }
     static std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
     /// Density of vertex i per area, from the lamp's side and from the camera's.
-    double from_lamp(int i) const { return i == 0 ? place : onwards[at(i - 1)] * to_next[at(i - 1)]; }
+    double from_lamp(int i) const { return i == 0 ? position : onwards[at(i - 1)] * to_next[at(i - 1)]; }
     double from_lens(int i) const { return i == k - 1 ? film : backwards[at(i + 1)] * to_before[at(i + 1)]; }
     /// Density of the whole path by the technique that draws its first s vertices from the lamp; 0: there is none.
     double of_technique(int s) const {
@@ -139,7 +139,7 @@ struct PathDensities {
     /// The sums of a subpath at vertex i.
     TechniqueSums sums_from_lamp(int i, const Heuristic& m) const {
         if (i == 1) {
-            const double pdf = place * from_lamp(1);
+            const double pdf = position * from_lamp(1);
             return {m(next_event / pdf), m(to_before[1] / pdf)};
         }
         return sums_from_lamp(i - 1, m).after({from_lamp(i), to_before[at(i)], backwards[at(i - 1)], delta[at(i - 1)]},
@@ -152,9 +152,9 @@ struct PathDensities {
     /// What bidirectional path tracing weighs the technique by.
     double weight(int s, const Heuristic& m) const {
         double others = 0;
-        if (s == 0) return technique_weight(sums_from_lens(0, m).sum(next_event, place * onwards[0], m));
+        if (s == 0) return technique_weight(sums_from_lens(0, m).sum(next_event, position * onwards[0], m));
         if (s == 1) {
-            const double reach = place * from_lamp(1) / next_event;
+            const double reach = position * from_lamp(1) / next_event;
             others = m(from_lens(0) / next_event) + sums_from_lens(1, m).sum(reach, reach * onwards[1], m);
             return technique_weight(others);
         }

@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 #include "common/base/error.h"
 #include "common/base/random.h"
 #include "common/math/frame.h"
@@ -217,7 +215,7 @@ TEST(LightTree, BoundsHoldWhatArrives) {
                 space.set(lanes, k, lights[of[std::size_t(k)]]);
             }
             LightLanes::Floats brings;
-            lanes.estimate(space.place(receiver.p), receiver, brings);
+            lanes.estimate(space.normalised(receiver.p), receiver, brings);
             // An estimate takes the distance to the centre; where that is twice the radius, a point is nearer by half.
             for (std::size_t k = 0; k < LightLanes::kCount; ++k) {
                 const LightBounds& light = lights[of[k]];
@@ -278,7 +276,7 @@ TEST(LightTree, AnyPowerOfTwoAsScaleDrawsTheSame) {
 }
 
 /// Lights that stand in odd ways: drawing them ends, and says how likely it was.
-TEST(LightTree, OddPlacesAreDrawn) {
+TEST(LightTree, OddPositionsAreDrawn) {
     const auto at = [](const Vec3& p) { return LightBounds::in_box(Box3(p, p), 1.0); };
     std::vector<std::vector<LightBounds>> scenes(5);
     for (int i = 0; i < 300; ++i) {

@@ -40,15 +40,6 @@ class ObjMaterials : public MitsubaFixture {
         ADD_FAILURE() << "no shape there";
         return Rgb(-1.0f);
     }
-
-    std::string refusal(const std::string& body, const std::string& version = "0.6.0") const {
-        try {
-            load_with_sensor(body, version);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
-    }
 };
 
 TEST_F(ObjMaterials, BsdfsNamedLikeThem) {

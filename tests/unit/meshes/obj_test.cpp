@@ -1,28 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 
 #include "coordinator/input/load.h"
 #include "coordinator/input/meshes/obj_file.h"
 #include "coordinator/input/meshes/triangulate.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
 
-class Obj : public ::testing::Test {
+class Obj : public test::FolderTest {
   protected:
-    void SetUp() override {
-        folder_ = std::filesystem::path(::testing::TempDir()) / "obj_test" /
-                  ::testing::UnitTest::GetInstance()->current_test_info()->name();
-        std::filesystem::create_directories(folder_);
-    }
-
-    ObjFile read(const std::string& text) const {
-        std::ofstream(folder_ / "m.obj", std::ios::binary) << text;
-        return read_obj(folder_ / "m.obj", {"scene.xml", 5, 6});
-    }
+    ObjFile read(const std::string& text) const { return read_obj(write("m.obj", text), {"scene.xml", 5, 6}); }
 
     /// The message without the folder.
     std::string message_of(const std::string& text) const {
@@ -37,14 +28,12 @@ class Obj : public ::testing::Test {
 
     /// The mesh of a shape with this file and these properties.
     Mesh mesh(const std::string& text, const std::string& properties, const std::string& version = "0.6.0") const {
-        std::ofstream(folder_ / "m.obj", std::ios::binary) << text;
+        write("m.obj", text);
         std::ofstream(folder_ / "s.xml") << "<scene version=\"" << version << "\"><sensor type=\"perspective\"/>"
                                          << "<shape type=\"obj\"><string name=\"filename\" value=\"m.obj\"/>"
                                          << properties << "</shape></scene>";
         return std::get<Mesh>(load_scene(folder_ / "s.xml").scene.shapes.at(0).geometry);
     }
-
-    std::filesystem::path folder_;
 };
 
 Vec3 normal_of(const Mesh& mesh, std::size_t i) {
@@ -78,7 +67,7 @@ TEST_F(Obj, WindowsLineEndsAndMissingLastLineEnd) {
     EXPECT_EQ(read("v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3").corners.size(), 3u);
 }
 
-TEST_F(Obj, ErrorsHaveTheirPlace) {
+TEST_F(Obj, ErrorsHaveTheirLocation) {
     EXPECT_EQ(message_of("v 0 0 0\nv 1 zero 0\n"), ":2:5: \"zero\" is not a number; write a finite decimal number");
     EXPECT_EQ(message_of("v 0 0 nan\n").substr(0, 7), ":1:7: \"");
     EXPECT_EQ(message_of("v 0 0 1e39\n").substr(0, 7), ":1:7: \"");

@@ -3,6 +3,7 @@
 
 #include "coordinator/input/meshes/ply_file.h"
 #include "tests/support/mesh_bytes.h"
+#include "tests/support/refusal.h"
 
 namespace treefarm {
 namespace {
@@ -16,12 +17,7 @@ std::string ascii(const std::string& header, const std::string& body) {
 }
 
 std::string message_of(const std::string& bytes) {
-    try {
-        parse_ply(bytes, "m.ply");
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "no error";
+    return test::refusal_of([&] { parse_ply(bytes, "m.ply"); }, "no error");
 }
 
 void expect_refused(const std::string& bytes, const std::string& begin) {
@@ -192,7 +188,7 @@ TEST(Ply, HeaderErrorsHaveTheirLine) {
                    "m.ply:3:1: the vertices have no x, y and z");
 }
 
-TEST(Ply, TextErrorsHaveTheirPlace) {
+TEST(Ply, TextErrorsHaveTheirLocation) {
     const std::string header = kVertices + kFaces;  // the data begin in line 10
     EXPECT_EQ(message_of(ascii(header, "0 0 0\n1 zero 0\n1 1 0\n0 1 0\n3 0 1 2\n")),
               "m.ply:11:3: \"zero\" is not a number; write a finite decimal number");

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "common/config/job_reader.h"
 #include "coordinator/input/load.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
@@ -24,19 +24,8 @@ std::string include_of(const std::string& file) {
 }
 
 /// Bad input gives one clear line that begins with its place.
-class Malformed : public ::testing::Test {
+class Malformed : public test::FolderTest {
   protected:
-    void SetUp() override {
-        folder_ = std::filesystem::path(::testing::TempDir()) / "malformed_test" /
-                  ::testing::UnitTest::GetInstance()->current_test_info()->name();
-        std::filesystem::remove_all(folder_);
-        std::filesystem::create_directories(folder_);
-    }
-
-    void write(const std::string& name, const std::string& text) const {
-        std::ofstream(folder_ / name, std::ios::binary) << text;
-    }
-
     /// The message about a file, without the folder's name.
     std::string message_of_file(const std::string& name) const {
         try {
@@ -72,8 +61,6 @@ class Malformed : public ::testing::Test {
     void expect(const std::string& line, const std::string& message) const {
         EXPECT_EQ(message_of(line).substr(0, message.size()), message) << line << "\n -> " << message_of(line);
     }
-
-    std::filesystem::path folder_;
 };
 
 TEST_F(Malformed, Files) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a refusal says to do must help: every cure that can be applied without thought is applied, and the scene read
 // again.
-#include <algorithm>
-#include <set>
+#include <optional>
 
 #include "tests/support/cures.h"
 #include "tests/support/mitsuba_fixture.h"

@@ -5,7 +5,7 @@
 #include "common/image/exr.h"
 #include "coordinator/input/mitsuba/blackbody.h"
 #include "tests/support/mitsuba_fixture.h"
-#include "tests/support/support.h"
+#include "tests/support/refusal.h"
 
 namespace treefarm {
 namespace {
@@ -117,12 +117,7 @@ TEST_F(MitsubaEmitters, Projectors) {
     EXPECT_NEAR(only<ProjectorEmitter>("projector", slide + by_height, "3.0.0").half_width, 2.0f, 1e-5f);
 
     const auto refusal = [&](const std::string& inside, const char* version = "3.0.0") {
-        try {
-            emitter("projector", inside, version);
-        } catch (const InputError& error) {
-            return std::string(error.what());
-        }
-        return std::string();
+        return test::refusal_of([&] { emitter("projector", inside, version); });
     };
     for (const auto& [inside, word] : std::map<std::string, std::string>{
              {"<float name=\"fov\" value=\"180\"/>", "field of view"},

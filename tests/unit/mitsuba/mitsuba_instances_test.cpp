@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/mitsuba_fixture.h"
+#include "tests/support/refusal.h"
 
 namespace treefarm {
 namespace {
@@ -9,12 +10,7 @@ using namespace treefarm::test;
 class MitsubaInstances : public MitsubaFixture {
   protected:
     std::string message_of(const std::string& body) const {
-        try {
-            load_with_sensor(body);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "no error";
+        return test::refusal_of([&] { load_with_sensor(body); }, "no error");
     }
 
     void expect_refused(const std::string& body, const std::string& about) const {

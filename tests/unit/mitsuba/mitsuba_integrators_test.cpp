@@ -21,15 +21,6 @@ class MitsubaIntegrators : public MitsubaFixture {
         apply_layer(job, loaded.settings);
         return job;
     }
-
-    std::string refusal(const std::string& body, const std::string& version) const {
-        try {
-            load_with_sensor(body, version);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
-    }
 };
 
 std::string property(const std::string& tag, const std::string& name, const std::string& value) {

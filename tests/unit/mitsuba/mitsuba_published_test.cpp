@@ -16,16 +16,6 @@ class MitsubaPublished : public MitsubaFixture {
         return "<shape type=\"obj\"><string name=\"filename\" value=\"" + name + "\"/></shape>";
     }
 
-    /// The message of the error, or "".
-    std::string refusal(const std::string& body, const std::string& version = "0.6.0") const {
-        try {
-            load_with_sensor(body, version);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
-    }
-
     static bool warns_of(const LoadedScene& loaded, const std::string& words) {
         for (const Warning& warning : loaded.warnings)
             if (warning.text().find(words) != std::string::npos) return true;

@@ -11,15 +11,6 @@ using namespace treefarm::test;
 /// Properties that nobody asks for, repeated ones, and objects that nothing refers to.
 class MitsubaUnqueried : public MitsubaFixture {
   protected:
-    std::string refusal(const std::string& body, const std::string& version) const {
-        try {
-            load_with_sensor(body, version);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
-    }
-
     /// Warnings about what stands in the file, not about the whole scene.
     std::vector<std::string> warnings(const std::string& body) const {
         std::vector<std::string> texts;

@@ -71,7 +71,8 @@ Simulated simulate(const Job& job, const World& world) {
         state.passes.push_back(facts);
         state.seconds += facts.collect_seconds + world.overhead;
         state.threads = static_cast<std::uint32_t>(state.seconds >= world.moves_at ? world.moves_to : world.threads);
-        const bool counts = job.guiding.type == GuidingType::none || pass->spp >= kPolicy.schedule.least_weighed_spp;
+        const bool counts =
+            job.guiding.type == GuidingType::none || pass->spp >= tuned<std::uint32_t>("schedule.least_weighed_spp");
         if (job.budget.strict || (shows_last_tree_only(test::resolved(job)) && !same_tree)) precision = 0;
         if (counts) precision += pass->spp / facts.mse_of_sample;
         state.error.known = precision > 0;

@@ -42,8 +42,9 @@ void render_pass(RenderHistory& state, const Learning& world, int tree, std::uin
     pass.overhead_seconds = 0.02;
     pass.record = record;
     pass.next_event = true;
-    const double precision = (state.error.known ? 1 / state.error.mse() : 0) +
-                             (spp >= kPolicy.schedule.least_weighed_spp ? spp / pass.mse_of_sample : 0.0);
+    const double precision =
+        (state.error.known ? 1 / state.error.mse() : 0) +
+        (spp >= tuned<std::uint32_t>("schedule.least_weighed_spp") ? spp / pass.mse_of_sample : 0.0);
     state.passes.push_back(pass);
     state.seconds += pass.collect_seconds + pass.overhead_seconds;
     state.error.known = state.error.has_interval = precision > 0;

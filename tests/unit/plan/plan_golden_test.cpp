@@ -2,7 +2,6 @@
 // The plan of each scene: which effects are on, and the kernels. Facts, not text.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <set>
 
 #include "common/config/job_reader.h"

@@ -12,6 +12,7 @@
 #include "common/plan/schedule/learning.h"
 #include "common/scene/uses/material_traits.h"
 #include "common/scene/uses/texture_mean.h"
+#include "tests/support/refusal.h"
 #include "tests/support/resolved.h"
 
 namespace treefarm {
@@ -364,13 +365,10 @@ TEST(EffectKeys, AreCheckedAndSurviveJobToml) {
     apply_setting(again, "effects.bump", "auto", {});
     EXPECT_EQ(again.effects.off, std::set<std::string>{"masks"});
     const auto message = [](const std::string& toml) -> std::string {
-        try {
+        return test::refusal_of([&] {
             Job target;
             apply_layer(target, parse_job_settings(toml, "job.toml"));
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
+        });
     };
     EXPECT_EQ(message("[effects]\nbump = false\n"), "");
     EXPECT_NE(message("[effects]\nbump = true\n").find("job.toml:2:8: effects.bump cannot be forced on"),

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -12,10 +10,9 @@
 #include "common/base/policy.h"
 #include "common/config/job_keys.h"
 #include "common/config/job_reader.h"
-#include "common/plan/resolve/policy_table.h"
 #include "common/plan/resolve/resolved_file.h"
 #include "common/plan/schedule/schedule.h"
-#include "tests/support/support.h"
+#include "tests/support/refusal.h"
 
 namespace treefarm {
 namespace {
@@ -119,86 +116,24 @@ TEST(Resolve, ARuleSaysWhenGuidingAndSplittingMayEnd) {
     EXPECT_FALSE(pass_of(with({{"guiding.splitting", "4"}, {"guiding.splitting_rule", "while_it_pays"}})).split);
 }
 
-/// Members of Policy that have a default, as the header has them: "guiding.giving_up".
-std::vector<std::string> constants_of_policy_h() {
-    std::ifstream header(std::string(TREEFARM_SOURCE_DIR) + "/common/base/policy.h");
-    std::vector<std::string> names, group;
-    for (std::string line; std::getline(header, line);) {
-        std::istringstream words(line);
-        std::string first, second, third;
-        words >> first >> second >> third;
-        if (third == "=") group.push_back(second);
-        if (first == "}" && second.ends_with(";")) {
-            for (const std::string& member : group)
-                names.push_back(second.substr(0, second.size() - 1) + "." + member);
-            group.clear();
-        }
+TEST(Policy, EveryConstantIsExplained) {
+    for (const policy::Constant& constant : policy::kConstants) {
+        EXPECT_GT(std::string(constant.meaning).size(), 8u) << constant.name;
+        EXPECT_FALSE(std::string(constant.evidence).empty()) << constant.name;
     }
-    return names;
+    EXPECT_GT(std::size(policy::kConstants), 60u);
 }
 
-TEST(PolicyTable, ExplainsEveryConstant) {
-    std::vector<std::string> explained;
-    for (const PolicyEntry& entry : policy_table()) {
-        explained.push_back(entry.name);
-        EXPECT_GT(std::string(entry.meaning).size(), 8u) << entry.name;
-        EXPECT_FALSE(std::string(entry.evidence).empty()) << entry.name;
-    }
-    EXPECT_EQ(explained, constants_of_policy_h());
-    EXPECT_GT(explained.size(), 60u);
-}
-
-/// What of our sources but the table itself reads the policy.
-std::vector<std::string> sources_with_policy() {
+TEST(Policy, EveryConstantIsReadWhereItDecides) {
     namespace fs = std::filesystem;
-    std::vector<std::string> texts;
+    std::string sources;
     for (const char* folder : {"common", "coordinator", "worker", "report", "serve", "cli"})
-        for (const auto& entry : fs::recursive_directory_iterator(fs::path(TREEFARM_SOURCE_DIR) / folder)) {
-            const fs::path& file = entry.path();
-            if ((file.extension() != ".h" && file.extension() != ".cpp") || file.stem() == "policy_table") continue;
-            std::string text = (std::stringstream() << std::ifstream(file).rdbuf()).str();
-            if (text.find("kPolicy.") != std::string::npos) texts.push_back(std::move(text));
-        }
-    return texts;
-}
-
-bool is_name(char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
-}
-
-/// Whether a text has this word, not as a part of a longer one.
-bool has_word(const std::string& text, const std::string& word) {
-    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
-        if ((at == 0 || !is_name(text[at - 1])) &&
-            (at + word.size() == text.size() || !is_name(text[at + word.size()])))
-            return true;
-    return false;
-}
-
-/// Whether a text reads a constant: "kPolicy.group.member", or "kOf.member" after "kOf = kPolicy.group;".
-bool reads(const std::string& text, const std::string& group, const std::string& member) {
-    if (has_word(text, "kPolicy." + group + "." + member)) return true;
-    const std::string whole = " = kPolicy." + group + ";";
-    for (std::size_t at = text.find(whole); at != std::string::npos; at = text.find(whole, at + 1)) {
-        std::size_t begin = at;
-        while (begin > 0 && is_name(text[begin - 1]))
-            --begin;
-        if (has_word(text, text.substr(begin, at - begin) + "." + member)) return true;
-    }
-    return false;
-}
-
-TEST(PolicyTable, EveryConstantIsReadWhereItDecides) {
-    const std::vector<std::string> sources = sources_with_policy();
-    ASSERT_GT(sources.size(), 10u);
-    for (const PolicyEntry& entry : policy_table()) {
-        const std::string name = entry.name;
-        const std::size_t dot = name.find('.');
-        EXPECT_TRUE(std::any_of(
-            sources.begin(), sources.end(),
-            [&](const std::string& text) { return reads(text, name.substr(0, dot), name.substr(dot + 1)); }))
-            << name << " decides nothing";
-    }
+        for (const auto& entry : fs::recursive_directory_iterator(fs::path(TREEFARM_SOURCE_DIR) / folder))
+            if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp")
+                sources += (std::stringstream() << std::ifstream(entry.path()).rdbuf()).str();
+    for (const policy::Constant& constant : policy::kConstants)
+        EXPECT_TRUE(sources.find("(\"" + std::string(constant.name) + "\")") != std::string::npos)
+            << constant.name << " decides nothing";
 }
 
 constexpr char kHash[] = "0123456789abcdef";
@@ -232,6 +167,13 @@ std::string cut(std::string text, const std::string& from, const std::string& to
     return text.erase(at, to.empty() ? std::string::npos : text.find(to, at) - at);
 }
 
+TEST(ResolvedToml, ConstantsThatAreNoLongerRecordedMayStandInIt) {
+    std::string text = resolved_toml(Job());
+    text.insert(text.find("[policy.levels]\n") + 16, "block = 8\n");
+    text += "\n[policy.farm]\nhalf_life = 2\n\n[policy.splats]\nnearest = 1.52587890625e-05\n";
+    EXPECT_NO_THROW(checked_job_file(parse_job_settings(text, "resolved.toml")));
+}
+
 TEST(ResolvedToml, OfAnotherBuildIsRefusedByName) {
     const std::string toml = resolved_toml(Job());
     const auto changed = [&](const std::string& from, const std::string& to) {
@@ -250,6 +192,7 @@ TEST(ResolvedToml, OfAnotherBuildIsRefusedByName) {
         {changed("giving_up = 0.85", "giving_up = 0.85\nlosing_all = 1"), "guiding.losing_all is no constant"},
         {changed("rr_depth = 5\n", ""), "integrator.rr_depth is not in it"},
         {changed("giving_up = 0.85", "giving_up = \"much\""), "guiding.giving_up was much"},
+        {changed("[policy.levels]\n", "[policy.levels]\nblock = 16\n"), "levels.block was 16, and is 8"},
         {cut(toml, "[policy."), "policy.guiding.least_judged_spp is not in it"},
         {cut(toml, "[experiment]", "[scene]"), "experiment.version is not in it"},
         {changed(results, ""), "experiment.results is not in it"},
@@ -272,12 +215,7 @@ TEST(ResolvedToml, OfAnotherSceneIsRefused) {
     EXPECT_NO_THROW(require_scene(experiment, kHash, "1.2.3", ""));
     EXPECT_NO_THROW(require_scene(experiment, kHash, "1.3.0", "-D width"));
     const auto refusal = [&](const std::string& version, const std::string& changed_by) -> std::string {
-        try {
-            require_scene(experiment, "fedcba9876543210", version, changed_by);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
+        return test::refusal_of([&] { require_scene(experiment, "fedcba9876543210", version, changed_by); });
     };
     EXPECT_EQ(refusal("1.2.3", "")
                   .find("resolved.toml:6:1: experiment.scene_hash was 0123456789abcdef, and is "

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "tests/support/refusal.h"
 #include "tests/support/resolved.h"
 
 namespace treefarm {
@@ -17,12 +18,7 @@ Job job_with(NextEvent next_event) {
 }
 
 std::string message_of(const std::string& text, const Job& job = {}) {
-    try {
-        parse_schedule(text, "s.toml", test::resolved(job));
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return test::refusal_of([&] { parse_schedule(text, "s.toml", test::resolved(job)); });
 }
 
 TEST(ScheduleFile, ComesBackAsItWasWritten) {

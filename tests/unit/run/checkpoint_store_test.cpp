@@ -9,6 +9,8 @@
 #include "common/config/aov_list.h"
 #include "common/film/pixel_codec.h"
 #include "common/plan/forecast/memory.h"
+#include "tests/support/refusal.h"
+#include "tests/support/test_folder.h"
 #include "tests/support/test_scenes.h"
 
 namespace treefarm {
@@ -20,14 +22,8 @@ constexpr std::size_t kPixels = 12;
 
 class Checkpoints : public ::testing::Test {
   protected:
-    fs::path run_ = fs::path(::testing::TempDir()) / "checkpoints" /
-                    ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::path run_ = test::fresh_test_folder();
     fs::path folder_ = run_ / kCheckpointFolder;
-
-    void SetUp() override {
-        fs::remove_all(run_);
-        fs::create_directories(run_);
-    }
 
     /// A state after so many passes, whose films hold their numbers.
     static RenderState state_of(std::size_t passes) {
@@ -62,12 +58,7 @@ class Checkpoints : public ::testing::Test {
     }
 
     std::string fault() const {
-        try {
-            load();
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
+        return test::refusal_of([&] { load(); });
     }
 
     void damage(const fs::path& file) const {
@@ -120,18 +111,18 @@ TEST_F(Checkpoints, WhatDecidesOnGuidingAndNextEventIsKept) {
     const NextEventPrice price{1.0, 8.0, 1000};
     std::uint8_t code = 0;
     state.image_next_event.learn(sums, price, code);
-    state.reports.back().guiding_worth = {.worth = 0.5, .error = 0.25, .unguided_variance = 2};
+    state.reports.back().guiding_efficiency = {.efficiency = 0.5, .error = 0.25, .unguided_variance = 2};
     state.reports.back().refine.next_event = {0.5, 0.25};
     state.reports.back().stats.next_event = sums;
     state.reports.back().stats.light_subpaths = {21, 22, 23, 24, 25, 26};
-    state.reports.back().stats.tails.add({2.5f, 1, 3, 4, 5, {LightFound::sampled, LightWay::glossy, 3}});
+    state.reports.back().stats.tails.add({2.5f, 1, 3, 4, 5, {LightFound::sampled, PathClass::glossy, 3}});
     write(store, state);
     RenderState back = load().state;
     EXPECT_EQ(back.history.guiding, Guiding::loses);
     EXPECT_EQ(back.guiding_memory, state.guiding_memory);
     EXPECT_NE(back.guiding_memory, GuidingMemory());
     EXPECT_EQ(back.tree.encode(), state.tree.encode());
-    EXPECT_EQ(back.reports.back().guiding_worth.error, 0.25);
+    EXPECT_EQ(back.reports.back().guiding_efficiency.error, 0.25);
     EXPECT_EQ(back.reports.back().refine.next_event.low, 0.25);
     EXPECT_EQ(back.reports.back().stats.next_event, sums);
     EXPECT_EQ(back.reports.back().stats.light_subpaths, state.reports.back().stats.light_subpaths);

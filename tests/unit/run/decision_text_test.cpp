@@ -18,13 +18,13 @@ std::string words_of(const PassReport& report, const std::string& subject) {
 PassReport guided_report() {
     PassReport report;
     report.plan.guided = true;
-    report.guiding_worth = {.worth = 6,
-                            .error = std::log(1.5),
-                            .known = 20,
-                            .unguided_variance = 18,
-                            .guided_variance = 2,
-                            .unguided_cost = 3,
-                            .guided_cost = 4.5};
+    report.guiding_efficiency = {.efficiency = 6,
+                                 .error = std::log(1.5),
+                                 .known = 20,
+                                 .unguided_variance = 18,
+                                 .guided_variance = 2,
+                                 .unguided_cost = 3,
+                                 .guided_cost = 4.5};
     return report;
 }
 
@@ -34,7 +34,7 @@ TEST(DecisionText, OnGuidingSaysWhatItSavesHowSurelyAndWhy) {
     EXPECT_EQ(words_of(report, "guiding"), "guided, which saves 83 % of the work (between 75 and 89 %): " + why);
     report.guiding = Guiding::loses;
     EXPECT_EQ(words_of(report, "guiding"), "unguided as long as guiding is not sure to pay again: " + why);
-    report.guiding_worth.worth = 0.4;
+    report.guiding_efficiency.efficiency = 0.4;
     EXPECT_EQ(words_of(report, "guiding"), "unguided, which saves 60 % of the work (between 40 and 73 %): " + why);
     report.guiding = Guiding::open;
     EXPECT_EQ(words_of(report, "guiding"),
@@ -44,9 +44,9 @@ TEST(DecisionText, OnGuidingSaysWhatItSavesHowSurelyAndWhy) {
 TEST(DecisionText, ABoundThatSaysNothingMoreIsLeftOut) {
     PassReport report = guided_report();
     report.guiding = Guiding::loses;
-    report.guiding_worth.worth = 0.71;
-    report.guiding_worth.error = 1e-4;
-    report.guiding_worth.unguided_variance = 2.01;
+    report.guiding_efficiency.efficiency = 0.71;
+    report.guiding_efficiency.error = 1e-4;
+    report.guiding_efficiency.unguided_variance = 2.01;
     EXPECT_EQ(words_of(report, "guiding"),
               "unguided, which saves 29 % of the work: an unguided sample would have about the variance of a guided "
               "one, at 0.67 of its cost");
@@ -54,16 +54,16 @@ TEST(DecisionText, ABoundThatSaysNothingMoreIsLeftOut) {
 
 TEST(DecisionText, NothingIsSavedByWhatCostsTheSame) {
     PassReport report = guided_report();
-    report.guiding_worth.worth = 1.001;
-    report.guiding_worth.error = 1e-4;
+    report.guiding_efficiency.efficiency = 1.001;
+    report.guiding_efficiency.error = 1e-4;
     EXPECT_TRUE(words_of(report, "guiding").starts_with("guided, which costs as much as not: "));
 }
 
 TEST(DecisionText, GuidedForWantOfKnowledgeSaysSo) {
     PassReport report = guided_report();
-    report.guiding_worth.worth = 0.67;
-    report.guiding_worth.error = 3;
-    report.guiding_worth.known = 1.02;
+    report.guiding_efficiency.efficiency = 0.67;
+    report.guiding_efficiency.error = 3;
+    report.guiding_efficiency.known = 1.02;
     const std::string words = words_of(report, "guiding");
     EXPECT_TRUE(words.starts_with("guided for now: too little is known, but may save up to 93 % of the work; so far "))
         << words;
@@ -108,7 +108,7 @@ TEST(DecisionText, OnSplittingOnceItIsGivenUp) {
 
 TEST(DecisionText, OnLightSubpathsOnlyOfSamplesThatHaveThem) {
     PassReport report;
-    report.light_subpath_gain = {.noise = 6.8, .rays = 2, .found = 1};
+    report.light_subpath_gain = {.noise = 6.8, .rays = 2, .mean_ratio = 1};
     EXPECT_EQ(words_of(report, "light subpaths"), "") << "a path tracer has none";
     report.plan.layers.splats.pixels = 64;
     EXPECT_EQ(words_of(report, "light subpaths"),

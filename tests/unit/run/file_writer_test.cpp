@@ -13,19 +13,12 @@
 #include "common/base/files/atomic_file.h"
 #include "coordinator/display/preview.h"
 #include "coordinator/run/last_files.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path fresh_folder() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    const fs::path folder = fs::path(testing::TempDir()) / (std::string("writer_") + test->name());
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-    return folder;
-}
 
 std::vector<std::string> names_in(const fs::path& folder) {
     std::vector<std::string> names;
@@ -106,7 +99,7 @@ TEST(LastFiles, AreWrittenEachOnItsOwn) {
 }
 
 TEST(AtomicFile, TemporariesCannotBeForeseenNorPlanted) {
-    const fs::path folder = fresh_folder(), victim = folder / "victim";
+    const fs::path folder = test::fresh_test_folder(), victim = folder / "victim";
     std::ofstream(victim) << "mine";
     // A name that nobody guesses: what stands in the way is what earlier programs used.
     fs::create_symlink(victim, folder / ("file.tmp" + std::to_string(getpid())));
@@ -119,7 +112,7 @@ TEST(AtomicFile, TemporariesCannotBeForeseenNorPlanted) {
 }
 
 TEST(AtomicFile, PermissionsFollowTheUmaskOrTheOldFile) {
-    const fs::path folder = fresh_folder();
+    const fs::path folder = test::fresh_test_folder();
     const std::vector<std::uint8_t> bytes{65};
     const mode_t before = umask(027);
     write_file_atomically(folder / "new", bytes);

@@ -11,6 +11,7 @@
 
 #include "coordinator/render/render.h"
 #include "coordinator/shot/shot_run.h"
+#include "tests/support/test_folder.h"
 #include "tests/support/test_scenes.h"
 #include "worker/local_worker.h"
 
@@ -27,13 +28,7 @@ const LocalWorker kWorker = [](Channel& own) { run_local_worker(own, 1, Fingerpr
 
 class Folders : public ::testing::Test {
   protected:
-    fs::path folder_ = fs::path(::testing::TempDir()) / "resumed_run" /
-                       ::testing::UnitTest::GetInstance()->current_test_info()->name();
-
-    void SetUp() override {
-        fs::remove_all(folder_);
-        fs::create_directories(folder_.parent_path());
-    }
+    fs::path folder_ = test::fresh_test_folder() / "run";
 
     RenderRequest request(std::uint32_t spp, double checkpoint_seconds = 1e-3) const {
         RenderRequest request;
@@ -72,9 +67,7 @@ class Folders : public ::testing::Test {
     std::map<std::string, std::string> files() const {
         std::map<std::string, std::string> texts;
         for (const auto& entry : fs::directory_iterator(folder_))
-            if (entry.is_regular_file())
-                texts[entry.path().filename().string()] =
-                    (std::stringstream() << std::ifstream(entry.path(), std::ios::binary).rdbuf()).str();
+            if (entry.is_regular_file()) texts[entry.path().filename().string()] = test::read_file(entry.path());
         return texts;
     }
 };

@@ -4,39 +4,20 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "common/base/error.h"
 #include "coordinator/run/folder_content.h"
+#include "tests/support/refusal.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path fresh_folder() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    const fs::path folder = fs::path(testing::TempDir()) / (std::string("folder_") + test->name());
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-    return folder;
-}
-
-void write(const fs::path& path, const std::string& text) {
-    fs::create_directories(path.parent_path());
-    std::ofstream(path) << text;
-}
-
 void write_run(const fs::path& folder, const std::string& image) {
-    write(folder / "status.json", R"({"state": "running", "spp_done": 7, "pid": 12, "host": "node"})");
-    write(folder / "passes.csv", "pass\n");
-    write(folder / "image.exr", image);
-}
-
-std::string read(const fs::path& path) {
-    std::string text;
-    std::ifstream(path) >> text;
-    return text;
+    test::write_file(folder / "status.json", R"({"state": "running", "spp_done": 7, "pid": 12, "host": "node"})");
+    test::write_file(folder / "passes.csv", "pass\n");
+    test::write_file(folder / "image.exr", image);
 }
 
 Job job_in(const fs::path& folder) {
@@ -47,85 +28,82 @@ Job job_in(const fs::path& folder) {
 }
 
 std::string refusal(const fs::path& folder, bool overwrite) {
-    try {
-        const RunFolder run(job_in(folder), overwrite ? FolderUse::replace : FolderUse::fresh, {});
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return test::refusal_of(
+        [&] { const RunFolder run(job_in(folder), overwrite ? FolderUse::replace : FolderUse::fresh, {}); });
 }
 
 TEST(RunFolder, ARenderIsReplacedOnlyWhenAskedFor) {
-    const fs::path folder = fresh_folder();
+    const fs::path folder = test::fresh_test_folder();
     write_run(folder, "first");
     EXPECT_EQ(refusal(folder, false), folder.string() +
                                           ": holds a render (broken off, 7 spp); go on with it by treefarm resume, "
                                           "replace it with --overwrite, or name another folder with --run-dir");
-    EXPECT_EQ(read(folder / "image.exr"), "first");
+    EXPECT_EQ(test::read_file(folder / "image.exr"), "first");
     {
         const RunFolder run(job_in(folder), FolderUse::replace, {});
         EXPECT_FALSE(fs::exists(folder / "image.exr"));
-        EXPECT_EQ(read(folder / "previous" / "image.exr"), "first");
+        EXPECT_EQ(test::read_file(folder / "previous" / "image.exr"), "first");
         EXPECT_TRUE(run.has_previous());
     }
     write_run(folder, "second");
     const RunFolder again(job_in(folder), FolderUse::replace, {});
-    EXPECT_EQ(read(folder / "previous" / "image.exr"), "first");
-    EXPECT_EQ(read(folder / "previous-2" / "image.exr"), "second");
+    EXPECT_EQ(test::read_file(folder / "previous" / "image.exr"), "first");
+    EXPECT_EQ(test::read_file(folder / "previous-2" / "image.exr"), "second");
     again.remove_previous();
     EXPECT_FALSE(again.has_previous());
     EXPECT_TRUE(fs::is_empty(folder));
 }
 
 TEST(RunFolder, ARenderThatGoesOnKeepsItsFiles) {
-    const fs::path folder = fresh_folder();
+    const fs::path folder = test::fresh_test_folder();
     write_run(folder, "first");
     const RunFolder run(job_in(folder), FolderUse::resume, {});
-    EXPECT_EQ(read(folder / "image.exr"), "first");
+    EXPECT_EQ(test::read_file(folder / "image.exr"), "first");
     EXPECT_FALSE(run.has_previous());
     run.give_back();
-    EXPECT_EQ(read(folder / "image.exr"), "first");
+    EXPECT_EQ(test::read_file(folder / "image.exr"), "first");
 }
 
 TEST(RunFolder, KeepsWhatIsNotTheRunsOwn) {
-    const fs::path folder = fresh_folder();
+    const fs::path folder = test::fresh_test_folder();
     write_run(folder, "first");
-    write(folder / "notes.txt", "mine");
-    write(folder / "previous-notes" / "a.txt", "mine");
+    test::write_file(folder / "notes.txt", "mine");
+    test::write_file(folder / "previous-notes" / "a.txt", "mine");
     const RunFolder run(job_in(folder), FolderUse::replace, {});
     run.remove_previous();
-    EXPECT_EQ(read(folder / "notes.txt"), "mine");
-    EXPECT_EQ(read(folder / "previous-notes" / "a.txt"), "mine");
+    EXPECT_EQ(test::read_file(folder / "notes.txt"), "mine");
+    EXPECT_EQ(test::read_file(folder / "previous-notes" / "a.txt"), "mine");
 }
 
 TEST(RunFolder, AnEarlierRunThatLiesAsideIsNoOtherFile) {
-    const fs::path folder = fresh_folder();
+    const fs::path folder = test::fresh_test_folder();
     write_run(folder / "previous", "first");
     EXPECT_EQ(refusal(folder, false), "");
-    EXPECT_EQ(read(folder / "previous" / "image.exr"), "first");
+    EXPECT_EQ(test::read_file(folder / "previous" / "image.exr"), "first");
 }
 
 TEST(RunFolder, StudiesAndOtherFilesAreNeverReplaced) {
-    const fs::path study = fresh_folder() / "study", cells = fresh_folder() / "cells", other = fresh_folder() / "other";
-    const fs::path shot = fresh_folder() / "shot";
-    write(study / "study.json", "{}");
-    write(study / "passes.csv", "of the report");
-    write(cells / "cells" / "a" / "passes.csv", "pass");
-    write(other / "job.toml", "mine");
-    write(shot / "shot.json", "{}");
+    const fs::path study = test::fresh_test_folder() / "study", cells = test::fresh_test_folder() / "cells",
+                   other = test::fresh_test_folder() / "other";
+    const fs::path shot = test::fresh_test_folder() / "shot";
+    test::write_file(study / "study.json", "{}");
+    test::write_file(study / "passes.csv", "of the report");
+    test::write_file(cells / "cells" / "a" / "passes.csv", "pass");
+    test::write_file(other / "job.toml", "mine");
+    test::write_file(shot / "shot.json", "{}");
     for (const bool overwrite : {false, true}) {
         EXPECT_NE(refusal(study, overwrite).find("holds a study"), std::string::npos);
         EXPECT_NE(refusal(cells, overwrite).find("holds a study"), std::string::npos);
         EXPECT_NE(refusal(shot, overwrite).find("holds a shot"), std::string::npos);
         EXPECT_NE(refusal(other, overwrite).find("holds other files"), std::string::npos);
     }
-    EXPECT_EQ(read(other / "job.toml"), "mine");
+    EXPECT_EQ(test::read_file(other / "job.toml"), "mine");
 }
 
 TEST(RunFolder, FramesThatWereRenderedOneByOneAreAShot) {
-    const fs::path folder = fresh_folder();
-    write(folder / "frame.0007.exr", "image");
-    write(folder / "frame.x" / "passes.csv", "pass");
+    const fs::path folder = test::fresh_test_folder();
+    test::write_file(folder / "frame.0007.exr", "image");
+    test::write_file(folder / "frame.x" / "passes.csv", "pass");
     EXPECT_EQ(folder_content(folder), FolderContent::other);
     write_run(folder / "frame.0007", "seventh");
     EXPECT_EQ(folder_content(folder), FolderContent::shot);
@@ -133,24 +111,24 @@ TEST(RunFolder, FramesThatWereRenderedOneByOneAreAShot) {
 }
 
 TEST(RunFolder, IsOnePrograms) {
-    const fs::path folder = fresh_folder();
+    const fs::path folder = test::fresh_test_folder();
     const RunFolder run(job_in(folder), FolderUse::fresh, {});
-    write(folder / "status.json", R"({"state": "running", "pid": 12, "host": "node"})");
+    test::write_file(folder / "status.json", R"({"state": "running", "pid": 12, "host": "node"})");
     const std::string refused = refusal(folder, true);
     EXPECT_NE(refused.find(folder.string() + ": another render or study is at work"), std::string::npos) << refused;
     EXPECT_NE(refused.find("process 12 on node"), std::string::npos) << refused;
 }
 
 TEST(RunFolder, RemovesWhatAKilledRunWasWriting) {
-    const fs::path folder = fresh_folder();
-    write(folder / "image.exr.tmp-abcdefghij01", "half");
+    const fs::path folder = test::fresh_test_folder();
+    test::write_file(folder / "image.exr.tmp-abcdefghij01", "half");
     EXPECT_EQ(refusal(folder, false), "");
     EXPECT_TRUE(fs::is_empty(folder));
 }
 
 TEST(RunFolder, AutomaticNamesDiffer) {
     const fs::path before = fs::current_path();
-    fs::current_path(fresh_folder());
+    fs::current_path(test::fresh_test_folder());
     Job job = job_in("");
     const RunFolder a(job, FolderUse::fresh, {}), b(job, FolderUse::fresh, {}), c(job, FolderUse::fresh, {});
     EXPECT_NE(a.path(), b.path());

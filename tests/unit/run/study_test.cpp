@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <set>
 
+#include "tests/support/refusal.h"
 #include "tests/support/support.h"
 
 namespace treefarm {
@@ -21,12 +21,7 @@ Study parse(const std::string& text) {
 }
 
 std::string complaint(const std::string& text) {
-    try {
-        parse(text);
-    } catch (const InputError& error) {
-        return std::string(error.what());
-    }
-    return "accepted";
+    return test::refusal_of([&] { parse(text); }, "accepted");
 }
 
 void expect_complaint(const std::string& text, const std::string& part) {

@@ -4,29 +4,21 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "common/image/png.h"
 #include "coordinator/input/load.h"
+#include "tests/support/refusal.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
 
 namespace fs = std::filesystem;
 
-class Limits : public ::testing::Test {
+class Limits : public test::FolderTest {
   protected:
-    fs::path folder_ = fs::path(::testing::TempDir()) / "scene_limits" /
-                       ::testing::UnitTest::GetInstance()->current_test_info()->name();
-
     void SetUp() override {
-        fs::remove_all(folder_);
         fs::create_directories(folder_ / "root");
         fs::create_directories(folder_ / "outside");
-    }
-
-    void write(const fs::path& name, const std::string& text) const {
-        std::ofstream(folder_ / name, std::ios::binary) << text;
     }
 
     fs::path scene_with(const std::string& content) const {
@@ -38,12 +30,7 @@ class Limits : public ::testing::Test {
 
     /// The message of a scene that is refused; "" for one that is read.
     static std::string refusal(const fs::path& scene, const SceneLimits& limits) {
-        try {
-            load_scene(scene, {}, false, 0, 0, "", limits);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
+        return test::refusal_of([&] { load_scene(scene, {}, false, 0, 0, "", limits); });
     }
 };
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "coordinator/input/check/validate.h"
+#include "tests/support/refusal.h"
 
 namespace treefarm {
 namespace {
@@ -32,12 +33,7 @@ Mesh& mesh_of(Scene& scene) {
 
 std::string message_of(Scene scene) {
     std::vector<Warning> warnings;
-    try {
-        validate_scene(scene, warnings);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "no error";
+    return test::refusal_of([&] { validate_scene(scene, warnings); }, "no error");
 }
 
 TEST(Scene, BoundsAndCounts) {

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "common/base/error.h"
@@ -14,6 +13,7 @@
 #include "serve/run_search.h"
 #include "serve/site.h"
 #include "serve/token.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
@@ -24,11 +24,6 @@ constexpr std::int64_t kNow = 1000000;
 
 Here here_at(std::int64_t now, bool has_process = true) {
     return {now, "node1", [=](int) { return has_process; }};
-}
-
-void write(const fs::path& file, const std::string& text) {
-    fs::create_directories(file.parent_path());
-    std::ofstream(file, std::ios::binary) << text;
 }
 
 std::string running_status(std::int64_t time) {
@@ -47,15 +42,12 @@ std::string running_status(std::int64_t time) {
 class ServeSite : public testing::Test {
   protected:
     void SetUp() override {
-        folder = fs::path(testing::TempDir()) / ("serve_site_" + std::to_string(getpid()));
-        fs::remove_all(folder);
-        write(folder / "runs/box/status.json", running_status(kNow - 1));
-        write(folder / "runs/box/log.txt", "first line\nsecond \x1b[31mline\n");
-        write(folder / "runs/box/passes.csv", "pass,spp,error,run_seconds\n0,4,0.5,1\n1,8,,2.5\n2,16,0.1");
-        write(folder / "runs/box/preview.png", "picture");
-        write(folder / "secret.txt", "secret");
+        test::write_file(folder / "runs/box/status.json", running_status(kNow - 1));
+        test::write_file(folder / "runs/box/log.txt", "first line\nsecond \x1b[31mline\n");
+        test::write_file(folder / "runs/box/passes.csv", "pass,spp,error,run_seconds\n0,4,0.5,1\n1,8,,2.5\n2,16,0.1");
+        test::write_file(folder / "runs/box/preview.png", "picture");
+        test::write_file(folder / "secret.txt", "secret");
     }
-    void TearDown() override { fs::remove_all(folder); }
 
     Site site(const std::string& token = "") const {
         return Site(ConfinedFolder(folder / "runs"), {token, "treefarm-1"}, [] { return here_at(kNow); });
@@ -68,7 +60,7 @@ class ServeSite : public testing::Test {
         return asked;
     }
 
-    fs::path folder;
+    const fs::path folder = test::fresh_test_folder();
 };
 
 TEST_F(ServeSite, NoPathLeadsOut) {
@@ -89,9 +81,9 @@ TEST_F(ServeSite, NoPathLeadsOut) {
 }
 
 TEST_F(ServeSite, ARunIsFoundAndEarlierOnesInsideAreNot) {
-    write(folder / "runs/box/previous/status.json", "{}");
-    write(folder / "runs/shot/frame.0001/status.json", "{}");
-    write(folder / "runs/.hidden/status.json", "{}");
+    test::write_file(folder / "runs/box/previous/status.json", "{}");
+    test::write_file(folder / "runs/shot/frame.0001/status.json", "{}");
+    test::write_file(folder / "runs/.hidden/status.json", "{}");
     const FoundRuns found = find_runs(ConfinedFolder(folder / "runs"));
     EXPECT_EQ(std::set<std::string>(found.paths.begin(), found.paths.end()),
               (std::set<std::string>{"box", "shot/frame.0001"}));
@@ -110,10 +102,10 @@ TEST_F(ServeSite, StateTellsALivingRenderFromADeadOne) {
     EXPECT_EQ(state(kNow + 10, false), "killed");
     EXPECT_EQ(state(kNow + 10, true), "running");
     EXPECT_EQ(state(kNow + 100, true), "silent");
-    write(folder / "runs/box/status.json", R"({"state": "done", "time": 5})");
+    test::write_file(folder / "runs/box/status.json", R"({"state": "done", "time": 5})");
     EXPECT_EQ(state(kNow, false), "done");
     for (const char* broken : {"", "{", "[]", "{\"state\": 7}", "null", "{\"state\": \"running\""}) {
-        write(folder / "runs/box/status.json", broken);
+        test::write_file(folder / "runs/box/status.json", broken);
         EXPECT_EQ(state(kNow, true), "unknown") << broken;
     }
     fs::remove(folder / "runs/box/status.json");
@@ -132,7 +124,7 @@ TEST_F(ServeSite, AViewHoldsWhatTheFilesSay) {
     EXPECT_TRUE(view["table"][1]["error"].is_null());
     EXPECT_EQ(view["log"], (FileJson{"first line", "second ?[31mline"}));
     EXPECT_TRUE(view["image_hash"].is_null());
-    write(folder / "runs/box/summary.json", R"({"state": "interrupted", "image_hash": "old"})");
+    test::write_file(folder / "runs/box/summary.json", R"({"state": "interrupted", "image_hash": "old"})");
     EXPECT_TRUE(run_view(ConfinedFolder(folder / "runs"), "box", here_at(kNow))["image_hash"].is_null())
         << "of an earlier life";
 }
@@ -160,7 +152,7 @@ TEST_F(ServeSite, APictureIsSentOnce) {
     EXPECT_EQ(first.body, "picture");
     asked.if_none_match = first.headers.at("ETag");
     EXPECT_EQ(all.respond(asked).status, 304);
-    write(folder / "runs/box/preview.png", "another picture");
+    test::write_file(folder / "runs/box/preview.png", "another picture");
     EXPECT_EQ(all.respond(asked).body, "another picture");
     fs::remove(folder / "runs/box/preview.png");
     EXPECT_EQ(all.respond(asked).status, 404);
@@ -215,10 +207,10 @@ TEST_F(ServeSite, WithoutTheTokenNothingIsTold) {
 
 TEST_F(ServeSite, ATokenFileHoldsOneToken) {
     const fs::path file = folder / "token";
-    write(file, "0123456789abcdef\n");
+    test::write_file(file, "0123456789abcdef\n");
     EXPECT_EQ(read_token(file), "0123456789abcdef");
     for (const char* wrong : {"", "short", "0123456789abcde/", "0123456789abcdef\nagain\n"}) {
-        write(file, wrong);
+        test::write_file(file, wrong);
         EXPECT_THROW(read_token(file), InputError) << wrong;
     }
     EXPECT_THROW(read_token(folder / "none"), InputError);

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "common/base/error.h"
-#include "common/base/timer.h"
 #include "tests/support/plain_http.h"
 
 namespace treefarm {

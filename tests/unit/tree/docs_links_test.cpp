@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <regex>
 #include <set>
 
 #include "tests/support/markdown.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
@@ -21,11 +21,6 @@ const fs::path kRoot = TREEFARM_SOURCE_DIR;
 
 std::string name_of(const fs::path& file) {
     return fs::relative(file, kRoot).string();
-}
-
-std::string text_of(const fs::path& file) {
-    std::ifstream stream(file);
-    return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 std::string lower(std::string text) {
@@ -83,7 +78,7 @@ bool has_section(const fs::path& page, const std::string& title) {
 /// Comments as running text: "///" and "#" at the beginning of a line are spaces.
 std::string running_text(const fs::path& file) {
     static const std::regex mark(R"(\n[ \t]*(?:///?<?|#)?[ \t]*)");
-    return std::regex_replace(text_of(file), mark, " ");
+    return std::regex_replace(test::read_file(file), mark, " ");
 }
 
 /// Faults of a text's citations of pages, as in: docs/design/error.md, "error", or docs/design/error.md#error.
@@ -226,7 +221,7 @@ TEST(DocsLinks, AStrangersQuestionsAreTwoClicksAway) {
              "| `guiding.type` |",              // which keys are there?
          }) {
         const bool found = std::any_of(pages.begin(), pages.end(), [&](const fs::path& page) {
-            return fs::exists(page) && text_of(page).find(answer) != std::string::npos;
+            return fs::exists(page) && test::read_file(page).find(answer) != std::string::npos;
         });
         EXPECT_TRUE(found) << "no page within two clicks of README.md says: " << answer;
     }

@@ -4,22 +4,19 @@
 
 #include <fstream>
 #include <regex>
-#include <sstream>
 
 #include "common/config/job_keys.h"
 #include "common/plan/effects/effect_table.h"
 #include "common/plan/resolve/policy_table.h"
 #include "common/protocol/fingerprint.h"
 #include "common/scene/kinds/kind_documentation.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
 
 std::string text_of(const std::string& name) {
-    std::ifstream file(std::string(TREEFARM_SOURCE_DIR) + "/" + name);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
+    return test::read_file(std::string(TREEFARM_SOURCE_DIR) + "/" + name);
 }
 
 /// The parenthesised part of a pattern's first match; empty without one.

@@ -180,16 +180,16 @@ class BidirectionalTracer {
                                                                        rules_.delta_alone, &choice_);
         // Densities of the emitter's point and of the direction from it, in next event's measure and per area. If only
         // lights without extent are sampled, both ends are assumed to choose them alike.
-        double place = rules_.delta_alone ? 1.0 : double(pdf.position) / double(light.pdf);
+        double position = rules_.delta_alone ? 1.0 : double(pdf.position) / double(light.pdf);
         double next = double(pdf.direction) * double(geometric_cosine(z.hit, light.wi));
         if (!light.at_infinity()) {
             const double distance2 = squared_distance(z.hit.p, light.on_light.p);
             next /= distance2;
             const auto cosine = double(geometric_cosine(light.on_light, light.wi));
             // 0 on a sphere's rim, by rounding: no light path leaves along its surface.
-            if (!light.delta) place = cosine > 0.0 ? place * (distance2 / cosine) : 0.0;
+            if (!light.delta) position = cosine > 0.0 ? position * (distance2 / cosine) : 0.0;
         }
-        return z.sums.sum(place * next, place * next * reverse(z, light.wi), rules_.heuristic);
+        return z.sums.sum(position * next, position * next * reverse(z, light.wi), rules_.heuristic);
     }
 
     /// Technique (s, t): connects a vertex of the light subpath to one of the camera subpath.

@@ -64,7 +64,7 @@ class LightSubpath {
         Departure from;
         for (int depth = 1;; ++depth) {
             const auto number = static_cast<std::uint32_t>(depth);
-            Vertex& vertex = room();
+            Vertex& vertex = next_slot();
             ++stats_.rays;
             if (!scene_.geometry().intersect(ray, vertex.hit)) return;
             if (depth > 1 && !rules_.roulette.spares(throughput, 1.0f, depth - 1,
@@ -109,7 +109,7 @@ class LightSubpath {
     }
 
     /// Storage for the next vertex. Vertices keep their addresses, since surfaces point to their hits.
-    Vertex& room() {
+    Vertex& next_slot() {
         if (static_cast<std::size_t>(count_) == vertices_.size()) vertices_.emplace_back(scene_);
         return vertices_[static_cast<std::size_t>(count_)];
     }

@@ -2,7 +2,6 @@
 #include "worker/integrators/first_hit/first_hit.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "worker/integrators/sample_loop.h"

@@ -116,7 +116,7 @@ class LightTracer {
 
   private:
     /// Number of a path's vertex, and the emitter that the path started from.
-    struct Place {
+    struct SplatSource {
         PathKey key;
         std::uint32_t vertex, emitter;
     };
@@ -156,18 +156,18 @@ class LightTracer {
     }
 
     /// Connects a vertex to the lens; `light` arrives there from `in`.
-    void connect(const Hit& hit, const Vec3& in, const Rgb& light, const Place& place, const Draw& lens) {
+    void connect(const Hit& hit, const Vec3& in, const Rgb& light, const SplatSource& source, const Draw& lens) {
         const FilmConnection to = sensor_.importance.connect(hit.p, lens);
         if (!to.seen || !sensor_.pixels.reaches(to.x, to.y)) return;
         const LightScattering scattering =
             light_scattering<Surface>(scene_, hit, in, to.direction, rules_.strict_normals, leaving_);
-        add(hit, to, light * scattering.f, 1.0, place);
+        add(hit, to, light * scattering.f, 1.0, source);
     }
 
     /// Adds a vertex's contribution, `factor` times the colour.
-    void add(const Hit& hit, const FilmConnection& to, const Rgb& colour, double factor, const Place& place) {
+    void add(const Hit& hit, const FilmConnection& to, const Rgb& colour, double factor, const SplatSource& source) {
         if (is_black(colour)) return;
-        const auto& [key, vertex, emitter] = place;
+        const auto& [key, vertex, emitter] = source;
         const PixelPick pick = sensor_.pixels.pick(to.x, to.y, draw(key, vertex, Stream::filter_pick));
         if (!pick.found) return;
         connections_.add(ray_to_lens(hit, to), pick.pixel, colour * static_cast<float>(factor * to.g * pick.weight),

@@ -43,8 +43,8 @@ class Candidates {
         float sum = 0.0f;
         for (std::uint32_t i = 0; i < count_; ++i)
             sum += weights_[i];
-        const float fair = kPolicy.walk.candidate_fair / static_cast<float>(count_);
-        const float preferred = (1.0f - kPolicy.walk.candidate_fair) / sum;
+        const float fair = tuned<float>("walk.candidate_fair") / static_cast<float>(count_);
+        const float preferred = (1.0f - tuned<float>("walk.candidate_fair")) / sum;
         std::uint32_t taken = 0;
         float probability = fair + preferred * weights_[0];
         for (float before = probability; taken + 1 < count_ && !(u < before); before += probability)

@@ -51,16 +51,16 @@ class Emission {
         observer_.emission(emitted, light_pdf, weight, path.throughput * weighted);
         const Rgb carried = path.throughput * weighted;
         path.radiance += carried;
-        if (settings_.twin) [[unlikely]]
-            add_to_twin(path, emitted, light_pdf);
+        if (settings_.estimates_unguided) [[unlikely]]
+            add_to_unguided(path, emitted, light_pdf);
         if (settings_.count_next_event && path.depth > 1 && counts_.counts(path.key)) [[unlikely]]
             counts_.emission(path, carried, light_pdf);
     }
 
-    [[gnu::noinline]] void add_to_twin(Path& path, const Rgb& emitted, float light_pdf) const {
+    [[gnu::noinline]] void add_to_unguided(Path& path, const Rgb& emitted, float light_pdf) const {
         const bool weighed = settings_.next_event && path.depth > 1;
         const float weight = weighed ? mis_weight(settings_.mis, path.scatter_bsdf_pdf, light_pdf) : 1.0f;
-        path.twin.add(luminance(path.throughput * emitted) * weight * path.inverse_level);
+        path.unguided.add(luminance(path.throughput * emitted) * weight * path.inverse_level);
     }
 
     const TraceScene& scene_;

@@ -16,15 +16,15 @@ namespace treefarm {
 /// the noise or less, and a faint reflection does not cost a whole path.
 class GlassSplits {
   public:
-    GlassSplits() { ways_.reserve(kDrawBatch); }
+    GlassSplits() { branches_.reserve(kDrawBatch); }
 
-    std::uint32_t size() const { return static_cast<std::uint32_t>(ways_.size()); }
-    void clear() { ways_.clear(); }
+    std::uint32_t size() const { return static_cast<std::uint32_t>(branches_.size()); }
+    void clear() { branches_.clear(); }
 
     /// Probability with which a way of this probability is followed, bounded below so that its weight does not overflow
     /// and 24 random bits resolve it.
     static float chance(float probability) {
-        return std::clamp(kPolicy.walk.split_often * probability, kPolicy.walk.split_least, 1.0f);
+        return std::clamp(tuned<float>("walk.split_often") * probability, 0x1p-12f, 1.0f);
     }
 
     /// Splits a path at its first surface, where path.scatter has been drawn: if the other way is open, the path takes
@@ -32,7 +32,7 @@ class GlassSplits {
     template <class Path>
     void split(Path& path, bool strict_normals) {
         const auto& surface = *path.surface;
-        const BsdfSample other = surface.bsdf().other_way(surface.wo(), path.scatter.local);
+        const BsdfSample other = surface.bsdf().other_branch(surface.wo(), path.scatter.local);
         if (!(other.pdf > 0.0f)) return;
         auto lesser = path.scatter;
         lesser.local = other.wi;
@@ -45,22 +45,22 @@ class GlassSplits {
         if (is_black(lesser.f_cos) || (strict_normals && dot(surface.ng(), lesser.world) * lesser.local.z <= 0.0f) ||
             !(to_unit(draw(path.key, path.vertex, Stream::glass_split)[0]) < lesser.effective_pdf))
             return;
-        ways_.push_back({path.origin,
-                         {offset_origin(path.hit, lesser.world), lesser.world},
-                         lesser.f_cos * (1.0f / lesser.effective_pdf),
-                         lesser.local.z < 0.0f ? surface.eta2() : 1.0f});
+        branches_.push_back({path.origin,
+                             {offset_origin(path.hit, lesser.world), lesser.world},
+                             lesser.f_cos * (1.0f / lesser.effective_pdf),
+                             lesser.local.z < 0.0f ? surface.eta2() : 1.0f});
     }
 
-    struct OtherWay {
+    struct OtherBranch {
         std::uint16_t origin;  ///< index of its camera path
         Ray ray;
         Rgb weight;    ///< f |cos| over the probability of following this way
         float spread;  ///< eta^2 if refracted, else 1
     };
-    const OtherWay& operator[](std::uint32_t i) const { return ways_[i]; }
+    const OtherBranch& operator[](std::uint32_t i) const { return branches_[i]; }
 
   private:
-    std::vector<OtherWay> ways_;  ///< at most one per camera path
+    std::vector<OtherBranch> branches_;  ///< at most one per camera path
 };
 
 }  // namespace treefarm

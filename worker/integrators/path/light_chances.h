@@ -20,7 +20,7 @@ class LightChances {
     /// Sets the average number of light samples of a vertex and, by the second word of the path's numbers, whether one
     /// is drawn.
     template <class Path>
-    void ask(Path& path, const DrawBatch& draws) const {
+    void decide(Path& path, const DrawBatch& draws) const {
         path.light_samples = 1.0f;
         path.samples_emitters = true;
         if (settings_.thin_next_event) [[unlikely]] {
@@ -33,13 +33,13 @@ class LightChances {
 
     /// Whether the vertex needs an emitter to be chosen.
     template <class Path>
-    bool chooses(const Path& path) const {
+    bool needs_emitter(const Path& path) const {
         return path.samples_emitters || settings_.delta_lights;
     }
 
     /// Whether the chosen emitter is sampled; `delta`: it has no extent.
     template <class Path>
-    bool takes(const Path& path, bool delta) const {
+    bool accepts(const Path& path, bool delta) const {
         if (!settings_.delta_lights || delta || !settings_.next_event) [[likely]]
             return true;
         if (counts(path)) count(path);
@@ -50,14 +50,15 @@ class LightChances {
     template <class Path>
     void traced(Path& path, bool delta) const {
         if constexpr (kConverts)
-            if (settings_.twin) path.twin.add_cost(static_cast<float>(kPolicy.next_event.shadow_ray_cost));
+            if (settings_.estimates_unguided)
+                path.unguided.add_cost(static_cast<float>(tuned("next_event.shadow_ray_cost")));
         if (counts(path) && !delta) [[unlikely]]
             counts_.traced(path.guidance.region);
     }
 
     /// Adds a sample's contribution to the pixel to the counts.
     template <class Path>
-    void found(const Path& path, const PendingLight<G>& light, const SeenLight& seen, const Rgb& carried) const {
+    void add(const Path& path, const PendingLight<G>& light, const SeenLight& seen, const Rgb& carried) const {
         if (counts(path) && !light.delta) [[unlikely]]
             counts_.light(path, light.from.guidance.region, carried, seen.scatter_pdf, seen.light_pdf,
                           light.from.light_samples);

@@ -18,8 +18,10 @@ class NextEventCounts {
   public:
     NextEventCounts(TraceStats& stats, std::span<NextEventSums> regions) : stats_(stats), regions_(regions) {}
 
-    /// Whether a path's direct light is counted: true for a few samples of each pixel.
-    static bool counts(const PathKey& key) { return key.sample % kPolicy.next_event.counted_every == 0; }
+    /// Whether a path is among those along which it is counted: a few samples of each pixel.
+    static bool counts(const PathKey& key) {
+        return key.sample % tuned<std::uint32_t>("next_event.counted_every") == 0;
+    }
 
     /// Counts a vertex that may sample an emitter; `drawn`: whether it does.
     void asked(std::uint32_t region, bool drawn) const {

@@ -5,16 +5,16 @@
 
 namespace treefarm {
 
-void OriginFinder::Way::pass(const SurfacePassage& surface) {
+void OriginFinder::PassedSurfaces::pass(const SurfacePassage& surface) {
     if (!surface.delta && !scattered) {  // surfaces that the camera sees by mirrors or glass are no random event
-        last = LightWay::diffuse;
+        last = PathClass::diffuse;
         scattered = true;
     }
-    last = std::max(last, surface.way);
+    last = std::max(last, surface.path_class);
 }
 
 void OriginFinder::camera(const Ray& ray) {
-    way_ = {};
+    passed_ = {};
     view_ = ray.direction;
 }
 
@@ -25,39 +25,39 @@ void OriginFinder::arrive(int depth, const Hit* hit) {
 }
 
 void OriginFinder::emission(const Rgb&, float, float, const Rgb& contribution) {
-    found(left_scene_ ? LightFound::sky_met : LightFound::met, way_, depth_, contribution);
+    found(left_scene_ ? LightFound::sky_met : LightFound::met, passed_, depth_, contribution);
 }
 
 void OriginFinder::scatter(const SurfacePassage& passage, const ScatterSample&, const Rgb&) {
-    way_.pass(passage);
+    passed_.pass(passage);
 }
 
 void OriginFinder::next_event(const SurfacePassage& passage, const SampledLight& light, float, float,
                               const Rgb& contribution) {
-    Way way = way_;
-    way.pass(passage);
-    found(light.from_environment ? LightFound::sky_sampled : LightFound::sampled, way, depth_ + 1, contribution);
+    PassedSurfaces passed = passed_;
+    passed.pass(passage);
+    found(light.from_environment ? LightFound::sky_sampled : LightFound::sampled, passed, depth_ + 1, contribution);
 }
 
-void OriginFinder::other_way(const Ray& ray, const Rgb&) {
+void OriginFinder::other_branch(const Ray& ray, const Rgb&) {
     const bool through = dot(first_normal_, ray.direction) * dot(first_normal_, view_) > 0.0f;
-    way_ = {};
-    way_.pass({through ? LightWay::smooth_glass : LightWay::mirror, true});
+    passed_ = {};
+    passed_.pass({through ? PathClass::smooth_glass : PathClass::mirror, true});
 }
 
 void OriginFinder::split(std::uint32_t paths, const Rgb&) {
-    waiting_.insert(waiting_.end(), paths - 1, way_);
+    waiting_.insert(waiting_.end(), paths - 1, passed_);
 }
 
 void OriginFinder::split_path(const SplitPath&) {
-    way_ = taken_ < waiting_.size() ? waiting_[taken_++] : Way();
+    passed_ = taken_ < waiting_.size() ? waiting_[taken_++] : PassedSurfaces();
 }
 
-void OriginFinder::found(LightFound how, const Way& way, int vertices, const Rgb& contribution) {
+void OriginFinder::found(LightFound how, const PassedSurfaces& passed, int vertices, const Rgb& contribution) {
     const float light = luminance(contribution);
     if (!(light > largest_)) return;
     largest_ = light;
-    origin_ = {how, way.last, static_cast<std::uint8_t>(std::min(vertices, 255))};
+    origin_ = {how, passed.last, static_cast<std::uint8_t>(std::min(vertices, 255))};
 }
 
 }  // namespace treefarm

@@ -19,26 +19,26 @@ class OriginFinder : public PathEvents {
     void scatter(const SurfacePassage& passage, const ScatterSample& s, const Rgb& throughput) override;
     void next_event(const SurfacePassage& passage, const SampledLight& light, float scatter_pdf, float weight,
                     const Rgb& contribution) override;
-    void other_way(const Ray& ray, const Rgb& throughput) override;
+    void other_branch(const Ray& ray, const Rgb& throughput) override;
     void split(std::uint32_t paths, const Rgb& throughput) override;
     void split_path(const SplitPath& path) override;
 
   private:
     /// History of a path up to its present vertex.
-    struct Way {
-        LightWay last = LightWay::diffuse;
+    struct PassedSurfaces {
+        PathClass last = PathClass::diffuse;
         bool scattered = false;  ///< at a surface other than mirrors and smooth glass
 
         void pass(const SurfacePassage& surface);
     };
 
-    void found(LightFound how, const Way& way, int vertices, const Rgb& contribution);
+    void found(LightFound how, const PassedSurfaces& passed, int vertices, const Rgb& contribution);
 
-    Way way_;
+    PassedSurfaces passed_;
     int depth_ = 0;
     bool left_scene_ = false;
     Vec3 view_{0.0f}, first_normal_{0.0f};  ///< the camera ray's direction; geometric normal at its hit
-    std::vector<Way> waiting_;              ///< of paths that were split off, in their order
+    std::vector<PassedSurfaces> waiting_;   ///< of paths that were split off, in their order
     std::size_t taken_ = 0;                 ///< number of them that have been traced
     float largest_ = 0.0f;
     LightOrigin origin_;

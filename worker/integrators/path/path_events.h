@@ -9,7 +9,7 @@ namespace treefarm {
 
 /// Kind of a path's passage at a surface, between two directions.
 struct SurfacePassage {
-    LightWay way = LightWay::diffuse;
+    PathClass path_class = PathClass::diffuse;
     bool delta = false;  ///< of a lobe without density
 };
 
@@ -33,7 +33,7 @@ class PathEvents {
     virtual void next_event(const SurfacePassage&, const SampledLight&, float /*scatter_pdf*/, float /*weight*/,
                             const Rgb& /*contribution*/) {}
     virtual void roulette(float /*survival*/, bool /*survives*/) {}
-    virtual void other_way(const Ray&, const Rgb& /*throughput*/) {}  ///< at glass that the camera sees
+    virtual void other_branch(const Ray&, const Rgb& /*throughput*/) {}  ///< at glass that the camera sees
     virtual void split(std::uint32_t /*paths*/, const Rgb& /*throughput*/) {}
     virtual void split_path(const SplitPath&) {}
     virtual void end(const char* /*why*/) {}

@@ -52,7 +52,7 @@ class PathKernel {
         }
         walk_camera_paths();
         if constexpr (Surface::kTransmits)
-            if (walk_.glass_splits().size() != 0) walk_other_ways();
+            if (walk_.glass_splits().size() != 0) walk_other_branches();
         if constexpr (kGuided)
             if (!walk_.split_paths().empty()) walk_split_paths();
     }
@@ -65,7 +65,7 @@ class PathKernel {
     /// hit.
     int first_exponent(std::uint32_t path) const { return first_exponents_[path]; }
     /// Estimate of unguided cost and variance from path `path`, if the pass asks for it; for guided paths that record.
-    const UnguidedTell& unguided(std::uint32_t path) const { return unguided_[path]; }
+    const UnguidedTotal& unguided(std::uint32_t path) const { return unguided_[path]; }
     /// One over the light about the pixel, as given to add().
     float inverse_level(std::uint32_t path) const { return inverse_levels_[path]; }
     Observer& observer() { return walk_.observer(); }
@@ -74,7 +74,7 @@ class PathKernel {
   private:
     using Path = typename Walk::Path;
 
-    static constexpr std::uint32_t kOtherWayVertices = 1u << 28;
+    static constexpr std::uint32_t kOtherBranchVertices = 1u << 28;
 
     /// Whether a path that ends makes its slot free for the next. For guided paths this was slower: their next batch
     /// waits for the last path (bench/log/speed.md, "what made paths faster").
@@ -135,31 +135,31 @@ class PathKernel {
                 if constexpr (kCompares) {
                     unsplit_[number] = path.unsplit.of(luminance(path.radiance));
                     first_exponents_[number] = path.first_exponent;
-                    unguided_[number] = {path.twin.moment(), path.twin.cost()};
+                    unguided_[number] = {path.unguided.moment(), path.unguided.cost()};
                 }
                 if constexpr (kInherits) splitting_states_[number] = {path.split_budget, path.first_exponent};
             });
     }
 
     /// Walks the other ways of paths that were split at their first surface.
-    [[gnu::noinline]] void walk_other_ways() {
+    [[gnu::noinline]] void walk_other_branches() {
         const GlassSplits& glass_splits = walk_.glass_splits();
         walk(
             glass_splits.size(),
             [&](std::uint32_t number, std::uint8_t slot) {
-                const GlassSplits::OtherWay& way = glass_splits[number];
+                const GlassSplits::OtherBranch& branch = glass_splits[number];
                 Path& path = walk_[slot];
-                path.begin(keys_[way.origin], way.ray);
-                path.origin = way.origin;
-                path.inverse_level = inverse_levels_[way.origin];
+                path.begin(keys_[branch.origin], branch.ray);
+                path.origin = branch.origin;
+                path.inverse_level = inverse_levels_[branch.origin];
                 if constexpr (kInherits) {
-                    path.split_budget = splitting_states_[way.origin].split_budget;
-                    path.first_exponent = splitting_states_[way.origin].first_exponent;
+                    path.split_budget = splitting_states_[branch.origin].split_budget;
+                    path.first_exponent = splitting_states_[branch.origin].first_exponent;
                 }
-                path.radiance = radiance_[way.origin];
-                path.resume(way.ray, way.weight, way.spread, kOtherWayVertices + 1);
-                if constexpr (kRecord) walk_.recorder(slot).begin_other_way(way.weight);
-                walk_.observer().other_way(way.ray, way.weight);
+                path.radiance = radiance_[branch.origin];
+                path.resume(branch.ray, branch.weight, branch.spread, kOtherBranchVertices + 1);
+                if constexpr (kRecord) walk_.recorder(slot).begin_other_branch(branch.weight);
+                walk_.observer().other_branch(branch.ray, branch.weight);
             },
             [&](std::uint32_t, const Path& path) {
                 Rgb& radiance = radiance_[path.origin];
@@ -168,7 +168,7 @@ class PathKernel {
                     float& first = unsplit_[path.origin];
                     const float second = path.unsplit.of(luminance(path.radiance)) - luminance(radiance);
                     const float level = path.inverse_level;
-                    unguided_[path.origin].add(path.twin, 2.0f * (first * level) * (second * level));
+                    unguided_[path.origin].add(path.unguided, 2.0f * (first * level) * (second * level));
                     first += second;
                 }
                 radiance = path.radiance;
@@ -181,7 +181,7 @@ class PathKernel {
         while (!walk_.split_paths().empty()) {
             const std::span<const SplitPath> split_paths = walk_.split_paths().next(numbers_);
             split_radiance_.resize(split_paths.size());
-            if constexpr (kCompares) split_tells_.resize(split_paths.size());
+            if constexpr (kCompares) split_unguided_.resize(split_paths.size());
             walk(
                 static_cast<std::uint32_t>(split_paths.size()),
                 [&](std::uint32_t number, std::uint8_t slot) {
@@ -192,7 +192,7 @@ class PathKernel {
                 },
                 [&](std::uint32_t number, const Path& path) {
                     split_radiance_[number] = path.radiance;
-                    if constexpr (kCompares) split_tells_[number] = {path.twin.moment(), path.twin.cost()};
+                    if constexpr (kCompares) split_unguided_[number] = {path.unguided.moment(), path.unguided.cost()};
                     stats_.split_path_rays += static_cast<std::uint32_t>(path.depth - split_paths[number].depth);
                 });
             // Added in their own order: the order in which they ended depends on the other paths.
@@ -200,7 +200,7 @@ class PathKernel {
                 radiance_[split_paths[i].origin] += split_radiance_[i];
             if constexpr (kCompares)
                 for (std::size_t i = 0; i < split_paths.size(); ++i)
-                    unguided_[split_paths[i].origin].add(split_tells_[i]);
+                    unguided_[split_paths[i].origin].add(split_unguided_[i]);
         }
     }
 
@@ -226,10 +226,10 @@ class PathKernel {
     std::array<SplittingState, kInherits ? kGroup : 0> splitting_states_;
     std::array<float, kCompares ? kGroup : 0> unsplit_;
     std::array<int, kCompares ? kGroup : 0> first_exponents_;
-    std::array<UnguidedTell, kCompares ? kGroup : 0> unguided_;
+    std::array<UnguidedTotal, kCompares ? kGroup : 0> unguided_;
     std::array<std::uint8_t, kGroup> numbers_;  ///< number of split paths so far, per camera path
     std::vector<Rgb> split_radiance_;           ///< radiance of each split path
-    std::vector<UnguidedTell> split_tells_;
+    std::vector<UnguidedTotal> split_unguided_;
 };
 
 }  // namespace treefarm

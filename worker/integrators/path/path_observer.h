@@ -21,7 +21,7 @@ struct NoObserver {
     template <class Surface, class G>
     void next_event(const Surface&, const PendingLight<G>&, float, float, const Rgb&) {}
     void roulette(float, bool) {}
-    void other_way(const Ray&, const Rgb&) {}
+    void other_branch(const Ray&, const Rgb&) {}
     void split(std::uint32_t, const Rgb&) {}
     void split_path(const SplitPath&) {}
     void end(const char*) {}

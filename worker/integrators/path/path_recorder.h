@@ -46,7 +46,7 @@ class PathRecorder {
     }
 
     /// Starts a record of the other way out of a path's first surface, by a delta lobe of this weight.
-    void begin_other_way(const Rgb& weight) {
+    void begin_other_branch(const Rgb& weight) {
         begin_path();
         add_delta_vertex(weight, {}, 0);
     }

@@ -33,7 +33,7 @@ std::uint32_t splitting(const PathState<G, Surface>& path, const RegionSampler& 
 template <class G, class Surface>
 float unguided_survival(const PathState<G, Surface>& path, const PathSettings& settings) {
     const float spread = Surface::kTransmits ? path.spread : 1.0f;
-    return settings.unguided_roulette.survival(path.throughput * path.twin.ratio(), spread);
+    return settings.unguided_roulette.survival(path.throughput * path.unguided.ratio(), spread);
 }
 
 /// Probability that a path survives roulette at its present vertex.

@@ -15,20 +15,20 @@ namespace treefarm {
 inline bool counts_next_event(const Resolved& job, const PassPlan& pass, const RegionSampler& guide) {
     return pass.next_event && job.decides_next_event && guide.knows_image() &&
            (!pass.record || guide.decides_next_event()) &&
-           multiples_in(pass.first_sample, pass.spp, kPolicy.next_event.counted_every) > 0;
+           multiples_in(pass.first_sample, pass.spp, tuned<std::uint32_t>("next_event.counted_every")) > 0;
 }
 
 /// Settings of the walk, fixed for a pass.
 struct PathSettings {
     int max_depth;
-    bool next_event;         ///< a flag rather than a kernel of its own: one predictable branch per vertex
-    bool delta_alone;        ///< only lights that nothing else finds are sampled
-    float light_samples;     ///< at each vertex; 0: the guide decides
-    bool thin_next_event;    ///< some vertices have less than one light sample on average
-    bool few_light_samples;  ///< so rare that numbers are drawn per vertex, not per batch
-    bool count_next_event;   ///< the pass counts contributions, to decide the sampling rate
-    bool twin;               ///< guided paths estimate the cost and variance of unguided ones
-    bool delta_lights;       ///< there are lights without extent: they are always sampled
+    bool next_event;          ///< a flag rather than a kernel of its own: one predictable branch per vertex
+    bool delta_alone;         ///< only lights that nothing else finds are sampled
+    float light_samples;      ///< at each vertex; 0: the guide decides
+    bool thin_next_event;     ///< some vertices have less than one light sample on average
+    bool few_light_samples;   ///< so rare that numbers are drawn per vertex, not per batch
+    bool count_next_event;    ///< the pass counts contributions, to decide the sampling rate
+    bool estimates_unguided;  ///< guided paths estimate the cost and variance of unguided ones
+    bool delta_lights;        ///< there are lights without extent: they are always sampled
     MisHeuristic mis;
     bool strict_normals;
     bool hide_emitters;
@@ -63,8 +63,8 @@ struct PathSettings {
           few_light_samples(thin_next_event && !by_region(pass) && !scene.emitters().has_delta_lights() &&
                             (light_samples > 0.0f ? light_samples : guide.image_next_event()) < kFew),
           count_next_event(next_event && counts_next_event(job, pass, guide)),
-          twin(pass.guided && pass.record && guide.trained() && guide.knows_image() &&
-               job.guiding.rule == Rule::while_it_pays),
+          estimates_unguided(pass.guided && pass.record && guide.trained() && guide.knows_image() &&
+                             job.guiding.rule == Rule::while_it_pays),
           delta_lights(scene.emitters().has_delta_lights()),
           mis(job.integrator.mis),
           strict_normals(job.integrator.strict_normals),

@@ -7,7 +7,7 @@
 #include "worker/geometry/embree_scene.h"
 #include "worker/integrators/path/scatter_sample.h"
 #include "worker/integrators/path/split_paths.h"
-#include "worker/integrators/path/unguided_twin.h"
+#include "worker/integrators/path/unguided_estimate.h"
 #include "worker/lights/light_lanes.h"
 
 namespace treefarm {
@@ -27,7 +27,7 @@ struct PathState {
     std::uint32_t scatter_region;    ///< of that vertex
     float inverse_level;             ///< one over the light about the pixel; 0: unknown
     float scatter_bsdf_pdf;          ///< density of the same direction without guiding; infinite after a delta lobe
-    UnguidedTwin twin;               ///< if PathSettings::twin is set
+    UnguidedEstimate unguided;       ///< if PathSettings::twin is set
     LightReceiver scatter_from;      ///< the vertex that the ray left, as the choice of an emitter used it
     LightWidthStore scatter_widths;  ///< storage of scatter_from
     int first_exponent;              ///< of the quanta at the camera ray's hit: the scale of its brightness
@@ -63,7 +63,7 @@ struct PathState {
         scatter_pdf = 0.0f;
         scatter_light_samples = 1.0f;
         scatter_bsdf_pdf = 0.0f;
-        twin = {};
+        unguided = {};
         scatter_region = 0;
         light_samples = 1.0f;
         samples_emitters = true;
@@ -84,14 +84,14 @@ struct PathState {
 
     /// Updates the unguided estimate for the drawn direction, by its guided and unguided density. The choice of the way
     /// out of glass is the same for both.
-    void follow_twin() {
-        if (!scatter.delta || scatter.effective_pdf == scatter.pdf) twin.step(scatter.pdf, scatter.bsdf_pdf);
+    void follow_unguided() {
+        if (!scatter.delta || scatter.effective_pdf == scatter.pdf) unguided.step(scatter.pdf, scatter.bsdf_pdf);
         scatter_bsdf_pdf = scatter.delta ? std::numeric_limits<float>::infinity() : scatter.bsdf_pdf;
     }
 
     /// State of a path that is split off at the present hit.
     SplitPath split_off() const {
-        return {origin, split_budget, depth, ray, embree_hit, throughput, spread, first_exponent, twin.split_off()};
+        return {origin, split_budget, depth, ray, embree_hit, throughput, spread, first_exponent, unguided.split_off()};
     }
 
     /// Splits the path into several, of which it remains one; the others go to `others`. Returns the total number.
@@ -99,7 +99,7 @@ struct PathState {
         paths = split_budget.split(paths);
         unsplit.split(paths, luminance(radiance));
         throughput *= 1.0f / static_cast<float>(paths);
-        twin.split(static_cast<float>(paths));
+        unguided.split(static_cast<float>(paths));
         for (std::uint32_t i = 1; i < paths; ++i)
             others.leave(split_off());
         return paths;
@@ -116,7 +116,7 @@ struct PathState {
         origin = split.origin;
         split_budget = split.split_budget;
         was_split_off = true;
-        twin = split.twin;
+        unguided = split.unguided;
         found = true;
         embree_hit = split.embree_hit;
     }

@@ -93,7 +93,7 @@ class PathWalk {
             if (kGuided && path.was_split_off) continue;
             ++stats_.rays;
             if constexpr (kGuided)
-                if (settings_.twin) path.twin.add_cost(1.0f);
+                if (settings_.estimates_unguided) path.unguided.add_cost(1.0f);
             observer_.ray(path.ray);
             queries[count++] = {&path.ray, &path.embree_hit, &path.found};
         }
@@ -213,7 +213,7 @@ class PathWalk {
             observer_.roulette(chance, survives);
             if (!survives) return end("roulette");
             if constexpr (kGuided)
-                if (settings_.twin) path.twin.step(chance, unguided_survival(path, settings_));
+                if (settings_.estimates_unguided) path.unguided.step(chance, unguided_survival(path, settings_));
             path.throughput *= 1.0f / chance;
             if constexpr (kRecord) recorder->survive(chance);
         }
@@ -247,8 +247,8 @@ class PathWalk {
         if constexpr (kRecord)
             if (surface.smooth() && !guide_.contains(hit.p)) recorders_[index].add_outside();
         if (emitters_.any() && surface.smooth()) {
-            chances_.ask(path, roulette_draws_);
-            if (!emitters_.together() && chances_.chooses(path)) next_event(index);
+            chances_.decide(path, roulette_draws_);
+            if (!emitters_.together() && chances_.needs_emitter(path)) next_event(index);
         }
         return true;
     }
@@ -267,11 +267,11 @@ class PathWalk {
         observer_.scatter(surface, s, path.throughput);
         path.scatter_pdf = s.pdf;
         if constexpr (kGuided)
-            if (settings_.twin) path.follow_twin();
+            if (settings_.estimates_unguided) path.follow_unguided();
         path.scatter_from = receiver(path);
         path.scatter_light_samples = path.light_samples;
         if constexpr (kConverts) path.scatter_region = path.guidance.region;
-        if (surface.smooth() && chances_.chooses(path))
+        if (surface.smooth() && chances_.needs_emitter(path))
             emitters_.keep(path.lane, path.scatter_from, path.scatter_widths);
         // One test for both rare cases: the same bits mean that a lobe may be delta, or refract.
         const bool rare = Surface::kGeneral && surface.delta_or_transmitting();
@@ -295,7 +295,7 @@ class PathWalk {
         emitters_.clear();
         for (std::uint32_t i = 0; i < alive; ++i) {
             const Path& path = paths_[alive_[i]];
-            if (!path.surface->smooth() || !chances_.chooses(path)) continue;
+            if (!path.surface->smooth() || !chances_.needs_emitter(path)) continue;
             smooth[count++] = alive_[i];
             emitters_.choose(path, receiver(path));
         }
@@ -317,7 +317,7 @@ class PathWalk {
         const Surface& surface = *path.surface;
         const LightReceiver at = receiver(path);
         const DirectSample light = emitters_.sample(at, path);
-        if (!chances_.takes(path, light.delta)) return;
+        if (!chances_.accepts(path, light.delta)) return;
         if (!(light.pdf > 0.0f) || light.black()) return;
         BsdfValue bsdf;
         if (surface.evaluate_late()) {
@@ -363,8 +363,9 @@ class PathWalk {
         const Rgb carried = light.from.throughput * seen.reflected;
         path.radiance += carried;
         if constexpr (kGuided)
-            if (settings_.twin) path.twin.add(twin_light(light, seen, settings_) * path.inverse_level);
-        chances_.found(path, light, seen, carried);
+            if (settings_.estimates_unguided)
+                path.unguided.add(unguided_light(light, seen, settings_) * path.inverse_level);
+        chances_.add(path, light, seen, carried);
         observer_.next_event(*path.surface, light, seen.scatter_pdf, seen.weight, carried);
         if constexpr (kRecord)
             record_light(light, seen.reflected, seen.weight, direction, path, guide_, settings_,

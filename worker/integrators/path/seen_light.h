@@ -42,7 +42,7 @@ SeenLight see_light(const PendingLight<G>& light, const typename G::Direction& d
 
 /// Contribution of a light sample to the guided path's pixel, in luminance, weighted as in the unguided path.
 template <class G>
-float twin_light(const PendingLight<G>& light, const SeenLight& seen, const PathSettings& settings) {
+float unguided_light(const PendingLight<G>& light, const SeenLight& seen, const PathSettings& settings) {
     const float weight = mis_weight(settings.mis, seen.light_pdf, light.delta ? 0.0f : light.bsdf_pdf);
     return luminance(light.from.throughput * (light.f_cos * light.radiance)) * (weight / seen.light_pdf);
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "worker/geometry/embree_scene.h"
-#include "worker/integrators/path/unguided_twin.h"
+#include "worker/integrators/path/unguided_estimate.h"
 
 namespace treefarm {
 
@@ -54,7 +54,7 @@ struct SplitPath {
     Rgb throughput;
     float spread;
     int first_exponent;
-    UnguidedTwin twin;
+    UnguidedEstimate unguided;
 
     /// First vertex number of a split path, beyond those of any camera path: it keys its random numbers.
     std::uint32_t first_vertex() const {

@@ -54,13 +54,13 @@ void render_with(const TileJob& tile) {
     };
     // Contributions are counted as the pixel receives them.
     const auto inverse_level = [&](const UnitCursor& at) {
-        if (!settings.count_next_event && !settings.twin) return 0.0f;
+        if (!settings.count_next_event && !settings.estimates_unguided) return 0.0f;
         const float level = guide.inverse_level(static_cast<std::uint32_t>(at.x), static_cast<std::uint32_t>(at.y));
         return is_signed ? level * std::abs(tile.scene.camera().weight(key(at))) : level;
     };
     std::vector<PixelEstimate> blocks;
     PairedSamples pairs;
-    UnguidedBlock tells;
+    UnguidedBlock unguided;
     std::size_t group = 0;  // pixel group that `tells` counts
     UnitCursor start(pass, unit), end(pass, unit);
     while (!start.done()) {
@@ -75,7 +75,7 @@ void render_with(const TileJob& tile) {
             if (end.sample % kBlockSamples == 0) {
                 blocks.emplace_back();
                 pairs.finish(stats.splitting);
-                if (settings.twin) tells.finish(group, stats.unguided);
+                if (settings.estimates_unguided) unguided.finish(group, stats.unguided);
                 group = pixel_group(static_cast<std::uint32_t>(end.x), static_cast<std::uint32_t>(end.y));
             }
             Rgb radiance = kernel.radiance(i);
@@ -90,10 +90,10 @@ void render_with(const TileJob& tile) {
                 pairs.add(scale * luminance(radiance), scale * kernel.unsplit(i));
             }
             if constexpr (kGuided && kRecord)
-                if (settings.twin && is_radiance(kernel.radiance(i)))
-                    tells.add(static_cast<double>(luminance(radiance) * kernel.inverse_level(i)),
-                              static_cast<double>(kernel.unguided(i).moment),
-                              static_cast<double>(kernel.unguided(i).cost));
+                if (settings.estimates_unguided && is_radiance(kernel.radiance(i)))
+                    unguided.add(static_cast<double>(luminance(radiance) * kernel.inverse_level(i)),
+                                 static_cast<double>(kernel.unguided(i).moment),
+                                 static_cast<double>(kernel.unguided(i).cost));
             const int x = end.x, y = end.y;
             if (end.advance()) {
                 pixels.push_back(reduce_blocks(blocks));
@@ -105,7 +105,7 @@ void render_with(const TileJob& tile) {
         stats.paths += kernel.count();
     }
     pairs.finish(stats.splitting);
-    if (settings.twin) tells.finish(group, stats.unguided);
+    if (settings.estimates_unguided) unguided.finish(group, stats.unguided);
 }
 
 /// Kernels of a guide for one kind of surface.

@@ -29,18 +29,18 @@ class Roulette {
     float survival(const Rgb& throughput, float scale = 1.0f, float brightness = 1.0f) const {
         switch (rule_) {
             case Rule::unguided:
-                return std::min(max_component(throughput) * scale * kPolicy.walk.unguided_window,
-                                kPolicy.walk.unguided_most);
+                return std::min(max_component(throughput) * scale * tuned<float>("walk.unguided_window"),
+                                tuned<float>("walk.unguided_most"));
             case Rule::untrained:
-                return std::clamp(max_component(throughput) * scale, kPolicy.walk.untrained_least,
-                                  kPolicy.walk.guided_survival);
+                return std::clamp(max_component(throughput) * scale, tuned<float>("walk.untrained_least"),
+                                  tuned<float>("walk.guided_survival"));
             case Rule::adjoint:
-                return std::clamp(max_component(throughput) * scale * brightness * kPolicy.walk.adjoint_window,
-                                  kPolicy.walk.adjoint_least, kPolicy.walk.adjoint_most);
+                return std::clamp(max_component(throughput) * scale * brightness * tuned<float>("walk.adjoint_window"),
+                                  tuned<float>("walk.adjoint_least"), tuned<float>("walk.adjoint_most"));
             case Rule::constant:
                 break;
         }
-        return kPolicy.walk.guided_survival;
+        return tuned<float>("walk.guided_survival");
     }
 
     /// Applies roulette to a path that scattered at `depth`, with a number in [0, 1): returns false if it ends, else
@@ -57,7 +57,8 @@ class Roulette {
     /// its first vertex; each then has at least the policy's fraction of the latter. 1 for rules other than adjoint.
     std::uint32_t splitting(const Rgb& throughput, float scale, float brightness, std::uint32_t most) const {
         if (rule_ != Rule::adjoint) return 1;
-        const float paths = max_component(throughput) * scale * brightness * (1.0f / kPolicy.splitting.least_share);
+        const float paths =
+            max_component(throughput) * scale * brightness * (1.0f / tuned<float>("splitting.least_share"));
         if (!(paths >= 2.0f)) return 1;
         return static_cast<std::uint32_t>(std::min(paths, static_cast<float>(most)));
     }

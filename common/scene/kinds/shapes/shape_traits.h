@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstdint>
 
 #include "common/math/vec.h"
 #include "common/scene/kinds/traits/texture_image.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/film/guiding_worth.h"
+#include "common/film/guiding_efficiency.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,11 +34,11 @@ void UnguidedBlock::finish(std::size_t group, UnguidedSums& sums) {
     *this = {};
 }
 
-double GuidingWorth::low() const {
-    return worth * std::exp(-error);
+double GuidingEfficiency::low() const {
+    return efficiency * std::exp(-error);
 }
-double GuidingWorth::high() const {
-    return worth * std::exp(error);
+double GuidingEfficiency::high() const {
+    return efficiency * std::exp(error);
 }
 
 void GuidingEvidence::add(const GuidingEvidence& other) {
@@ -54,24 +54,24 @@ void GuidingEvidence::add(const GuidingEvidence& other) {
     mix(unguided_cost, other.unguided_cost);
 }
 
-GuidingWorth GuidingEvidence::worth() const {
+GuidingEfficiency GuidingEvidence::efficiency() const {
     const double all_guided = std::accumulate(guided.begin(), guided.end(), 0.0),
                  all_unguided = std::accumulate(unguided.begin(), unguided.end(), 0.0);
     if (!(all_guided > 0 && guided_cost > 0 && unguided_cost > 0)) return {};
-    GuidingWorth worth;
-    worth.guided_cost = guided_cost;
-    worth.unguided_cost = unguided_cost;
+    GuidingEfficiency efficiency;
+    efficiency.guided_cost = guided_cost;
+    efficiency.unguided_cost = unguided_cost;
     constexpr double kLeast = 1e-9;  // no noise at all
-    worth.guided_variance = all_guided;
-    worth.unguided_variance = std::max(all_unguided, kLeast * std::max(all_guided, kLeast));
-    worth.worth = worth.unguided_variance * unguided_cost / (all_guided * guided_cost);
+    efficiency.guided_variance = all_guided;
+    efficiency.unguided_variance = std::max(all_unguided, kLeast * std::max(all_guided, kLeast));
+    efficiency.efficiency = efficiency.unguided_variance * unguided_cost / (all_guided * guided_cost);
     // The spread of the logarithm, by leaving groups out.
     double sum = 0, squares = 0, weight = 0, weights = 0;
     for (std::size_t g = 0; g < guided.size(); ++g) {
         const double others_guided = all_guided - guided[g], others_unguided = all_unguided - unguided[g];
         const double log = others_guided > 0 && others_unguided > 0
                                ? std::log(others_unguided / others_guided)
-                               : std::log(worth.unguided_variance / worth.guided_variance);
+                               : std::log(efficiency.unguided_variance / efficiency.guided_variance);
         sum += log;
         squares += log * log;
         const double part = std::max(unguided[g], 0.0);
@@ -79,9 +79,9 @@ GuidingWorth GuidingEvidence::worth() const {
         weights += part * part;
     }
     constexpr auto kN = static_cast<double>(UnguidedSums::kGroups);
-    worth.error = std::sqrt(std::max(squares - sum * sum / kN, 0.0) * (kN - 1) / kN);
-    worth.known = weights > 0 ? weight * weight / weights : 0;
-    return worth;
+    efficiency.error = std::sqrt(std::max(squares - sum * sum / kN, 0.0) * (kN - 1) / kN);
+    efficiency.known = weights > 0 ? weight * weight / weights : 0;
+    return efficiency;
 }
 
 GuidingEvidence guiding_evidence(const UnguidedSums& sums, std::span<const PixelEstimate> pixels,

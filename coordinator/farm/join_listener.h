@@ -11,15 +11,15 @@ namespace treefarm {
 
 /// Entry point for guest workers: a channel that lets them join a running render, and the ticket in the run directory,
 /// which is removed at the end. Guests that have joined stay.
-class GuestDoor {
+class JoinListener {
   public:
     /// Opens the entry point if the job asks for it. `fingerprint`: required of guests. Throws InputError if the job's
     /// address cannot be listened on, and RunError if the ticket cannot be written.
-    GuestDoor(Channel& channel, const Job::Farm& farm, std::uint64_t fingerprint, const std::filesystem::path& run,
-              const Log& log);
-    ~GuestDoor();
-    GuestDoor(const GuestDoor&) = delete;
-    GuestDoor& operator=(const GuestDoor&) = delete;
+    JoinListener(Channel& channel, const Job::Farm& farm, std::uint64_t fingerprint, const std::filesystem::path& run,
+                 const Log& log);
+    ~JoinListener();
+    JoinListener(const JoinListener&) = delete;
+    JoinListener& operator=(const JoinListener&) = delete;
 
   private:
     std::filesystem::path ticket_;  ///< empty: none

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/inspect_places.h"
+#include "cli/inspect_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -110,7 +110,7 @@ std::vector<Panel> panels_of(const std::string& title, std::vector<float> learne
 
 }  // namespace
 
-NamedPlace pixel_place(const std::string& text, const TraceScene& scene, const AnySampler& guide) {
+NamedPoint named_pixel(const std::string& text, const TraceScene& scene, const AnySampler& guide) {
     const Location where{"--pixel " + text, 0, 0};
     const std::vector<double> at = numbers_in(text);
     const int width = scene.film().width, height = scene.film().height;
@@ -120,29 +120,29 @@ NamedPlace pixel_place(const std::string& text, const TraceScene& scene, const A
             where, "is no pixel of the image",
             "write X,Y from 0,0 at the top left to " + std::to_string(width - 1) + "," + std::to_string(height - 1));
     const int x = static_cast<int>(at[0]), y = static_cast<int>(at[1]);
-    const auto place = seen_point(scene, x, y);
-    if (!place) throw InputError(where, "sees no surface, so there is nothing to guide", "choose another pixel");
-    const PlaceFacts facts = place_facts(scene, guide, *place);
+    const auto point = seen_point(scene, x, y);
+    if (!point) throw InputError(where, "sees no surface, so there is nothing to guide", "choose another pixel");
+    const PointFacts facts = point_facts(scene, guide, *point);
     if (facts.black || !facts.smooth)
         throw InputError(where,
                          facts.black ? "sees a surface that reflects nothing, so there is nothing to guide"
                                      : "sees a mirror or smooth glass, which no tree guides",
                          "choose another pixel");
-    return {"pixel-" + std::to_string(x) + "-" + std::to_string(y), "pixel " + text, *place};
+    return {"pixel-" + std::to_string(x) + "-" + std::to_string(y), "pixel " + text, *point};
 }
 
-NamedPlace point_place(const std::string& text, const AnySampler& guide) {
+NamedPoint named_point(const std::string& text, const AnySampler& guide) {
     const Location where{"--point " + text, 0, 0};
     const std::size_t colon = text.find(':');
     const std::vector<double> at = numbers_in(text.substr(0, colon));
     const std::vector<double> normal = colon == std::string::npos ? at : numbers_in(text.substr(colon + 1));
     if (at.size() != 3 || normal.size() != 3)
         throw InputError(where, "is no point", "write x,y,z or, with a normal, x,y,z:nx,ny,nz");
-    NamedPlace named{"point-" + text, "point " + text, {}};
+    NamedPoint named{"point-" + text, "point " + text, {}};
     std::replace(named.name.begin(), named.name.end(), ',', '_');
     std::replace(named.name.begin(), named.name.end(), ':', '-');
     std::replace(named.name.begin(), named.name.end(), ' ', '_');
-    Hit& hit = named.place.hit;
+    Hit& hit = named.point.hit;
     hit.p = vector_of(at);
     if (!guide.regions().contains(hit.p))
         throw InputError(where, "is outside of the cube that the tree divides",
@@ -153,15 +153,15 @@ NamedPlace point_place(const std::string& text, const AnySampler& guide) {
         throw InputError(where, "has a normal without direction", "give one, like 0,1,0");
     hit.ng = hit.ns = normalize(hit.ng);
     hit.error = offset_bound(std::max({std::abs(hit.p.x), std::abs(hit.p.y), std::abs(hit.p.z)}));
-    named.place.normal = true;
+    named.point.normal = true;
     return named;
 }
 
-PlaceReport look_at_place(const NamedPlace& named, const InspectedRun& run, const TraceScene& scene,
+PointReport inspect_point(const NamedPoint& named, const InspectedRun& run, const TraceScene& scene,
                           const AnySampler& guide, const BruteForce& settings, const std::filesystem::path& folder) {
-    PlaceReport report{named.text, named.place.hit.p, place_facts(scene, guide, named.place), 0.0, {}};
-    const PlaceGuidance& guidance = report.facts.guidance;
-    const PlaceTruth truth = trace_place(scene, run.request.content.plan.job, guide, named.place, settings);
+    PointReport report{named.text, named.point.hit.p, point_facts(scene, guide, named.point), 0.0, {}};
+    const PointGuidance& guidance = report.facts.guidance;
+    const PointTruth truth = trace_point(scene, run.request.content.plan.job, guide, named.point, settings);
     report.reflected = integral_of(truth.reflected);
     const auto add = [&](const std::string& kind, const std::vector<Panel>& panels) {
         report.comparisons.push_back(compare(kind, panels, settings.bits, folder / (named.name + "-" + kind + ".png")));
@@ -174,7 +174,7 @@ PlaceReport look_at_place(const NamedPlace& named, const InspectedRun& run, cons
                             product ? "f cos L" : "incident radiance", product ? truth.reflected : truth.radiance,
                             product ? truth.left_reflected : truth.left));
     }
-    if (named.place.surface)
+    if (named.point.surface)
         add("sampled", panels_of("what is sampled", truth.sampled, "f cos L", truth.reflected, truth.left_reflected));
     return report;
 }

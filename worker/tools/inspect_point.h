@@ -12,7 +12,7 @@
 namespace treefarm {
 
 /// Point at which the learned distribution is inspected: a surface point seen by a pixel, or any point of the scene.
-struct InspectedPlace {
+struct InspectedPoint {
     Hit hit;        ///< of a bare point: `p`, and the normals if known
     Vec3 outgoing;  ///< unit, direction that light goes to; of a surface point only
     bool surface = false;
@@ -20,7 +20,7 @@ struct InspectedPlace {
 };
 
 /// Guidance at the inspected point.
-struct PlaceGuidance {
+struct PointGuidance {
     static constexpr std::uint32_t kNoView = 0xffffffffu;
     std::uint32_t region = 0;
     std::uint32_t view = kNoView;  ///< distribution of the view at the point
@@ -30,8 +30,8 @@ struct PlaceGuidance {
 };
 
 /// Data that the tree uses at the point, and which lobes the material has.
-struct PlaceFacts {
-    PlaceGuidance guidance;       ///< fractions as the walk uses them; of a bare point: of its region, without a view
+struct PointFacts {
+    PointGuidance guidance;       ///< fractions as the walk uses them; of a bare point: of its region, without a view
     bool inside = true;           ///< the point is within the tree's cube
     bool black = false;           ///< the surface reflects nothing in the outgoing direction
     bool smooth = true;           ///< it has a lobe with a density, which guides can learn
@@ -39,9 +39,9 @@ struct PlaceFacts {
 };
 
 /// Surface point at the centre of a pixel, seen through the lens's centre; no value without a surface.
-std::optional<InspectedPlace> seen_point(const TraceScene& scene, int x, int y);
+std::optional<InspectedPoint> seen_point(const TraceScene& scene, int x, int y);
 
-PlaceFacts place_facts(const TraceScene& scene, const AnySampler& guide, const InspectedPlace& place);
+PointFacts point_facts(const TraceScene& scene, const AnySampler& guide, const InspectedPoint& point);
 
 /// Settings of the reference measurement: path tracing from the point, with next event, without guides.
 struct BruteForce {
@@ -54,7 +54,7 @@ struct BruteForce {
 /// Averages over the squares of the direction square, in row order from v = 0. Radiance is the mean of its channels, as
 /// the tree records it; 0 in directions that the surface does not reflect (or below the normal). `left`: the part that
 /// next event leaves to scattering, with emission that is hit weighted by MIS.
-struct PlaceTruth {
+struct PointTruth {
     std::vector<float> radiance;        ///< incident radiance
     std::vector<float> left;            ///< part of it left to scattering; empty without next event
     std::vector<float> reflected;       ///< f |cos| times incident radiance; empty without a surface
@@ -63,7 +63,7 @@ struct PlaceTruth {
 };
 
 /// Traces the point's incident and reflected light. Deterministic for any number of threads.
-PlaceTruth trace_place(const TraceScene& scene, const Resolved& job, const AnySampler& guide,
-                       const InspectedPlace& place, const BruteForce& settings);
+PointTruth trace_point(const TraceScene& scene, const Resolved& job, const AnySampler& guide,
+                       const InspectedPoint& point, const BruteForce& settings);
 
 }  // namespace treefarm

@@ -11,7 +11,7 @@
 namespace treefarm {
 
 /// Whether guiding pays, by the guided samples alone: each of them also tells how noisy and how costly unguided ones
-/// would be (worker/integrators/path/unguided_twin.h). Sums are whole numbers, over groups of pixels.
+/// would be (worker/integrators/path/unguided_estimate.h). Sums are whole numbers, over groups of pixels.
 struct UnguidedSums {
     static constexpr std::size_t kGroups = 64;
     static constexpr double kMomentUnit = 0x1p-16, kCostUnit = 0x1p-8;
@@ -44,8 +44,8 @@ class UnguidedBlock {
 };
 
 /// Variance times cost of unguided samples over that of guided ones: above 1 guiding pays.
-struct GuidingWorth {
-    double worth = 0;                                   ///< 0: not known
+struct GuidingEfficiency {
+    double efficiency = 0;                              ///< 0: not known
     double error = 0;                                   ///< standard error of its logarithm
     double known = 0;                                   ///< pixel groups that it rests on, as many as would weigh alike
     double unguided_variance = 0, guided_variance = 0;  ///< of a sample
@@ -54,7 +54,7 @@ struct GuidingWorth {
     double low() const;  ///< by one standard error
     double high() const;
 
-    bool operator==(const GuidingWorth&) const = default;
+    bool operator==(const GuidingEfficiency&) const = default;
 };
 
 /// What guided passes have told of guided and of unguided samples, by pixel group.
@@ -67,7 +67,7 @@ struct GuidingEvidence {
 
     /// Adds that of other passes; each sample counts alike.
     void add(const GuidingEvidence& other);
-    GuidingWorth worth() const;
+    GuidingEfficiency efficiency() const;
 
     bool operator==(const GuidingEvidence&) const = default;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/farm/begun_pass.h"
+#include "coordinator/farm/partial_pass.h"
 
 namespace treefarm {
 
@@ -15,20 +15,20 @@ std::array<std::uint64_t, kUnitKinds> range_ends(const PassPlan& plan, std::uint
 
 }  // namespace
 
-bool has_possible_units(const BegunPass& begun, std::uint64_t pixels) {
-    const auto ends = range_ends(begun.plan, pixels);
-    if (!begun.done.fits(pixels, begun.plan.chunks, ends)) return false;
-    DoneWork taken = begun.done;
+bool has_possible_units(const PartialPass& partial, std::uint64_t pixels) {
+    const auto ends = range_ends(partial.plan, pixels);
+    if (!partial.done.fits(pixels, partial.plan.chunks, ends)) return false;
+    DoneWork taken = partial.done;
     const auto is_there = [&](const WorkUnit& unit) {
         const auto kind = static_cast<std::size_t>(unit.kind);
-        if (unit.pass != begun.plan.index || kind >= kUnitKinds) return false;
+        if (unit.pass != partial.plan.index || kind >= kUnitKinds) return false;
         if (unit.kind == UnitKind::tile) return taken.holds(unit);
         return unit.count > 0 && unit.count <= ends[kind] && unit.first <= ends[kind] - unit.count;
     };
-    for (const DeadlyUnit& deadly : begun.deadly) {
-        if (deadly.deaths == 0 || deadly.deaths >= Ledger::kMostDeaths || !is_there(deadly.unit)) return false;
-        if (taken.left_of(deadly.unit) != std::vector<WorkUnit>{deadly.unit}) return false;
-        taken.add(deadly.unit);
+    for (const PoisonUnit& poison : partial.poison_units) {
+        if (poison.deaths == 0 || poison.deaths >= Ledger::kMostDeaths || !is_there(poison.unit)) return false;
+        if (taken.left_of(poison.unit) != std::vector<WorkUnit>{poison.unit}) return false;
+        taken.add(poison.unit);
     }
     return true;
 }

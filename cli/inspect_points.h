@@ -5,22 +5,22 @@
 #include <vector>
 
 #include "cli/inspected_run.h"
-#include "worker/tools/inspect_place.h"
+#include "worker/tools/inspect_point.h"
 
 namespace treefarm {
 
 /// A point as the user names it.
-struct NamedPlace {
+struct NamedPoint {
     std::string name;  ///< prefix of its pictures' file names
     std::string text;  ///< the user's text, for messages
-    InspectedPlace place;
+    InspectedPoint point;
 };
 
 /// Point from "x,y" of --pixel. Throws InputError if there is no such pixel, or no guided surface in it.
-NamedPlace pixel_place(const std::string& text, const TraceScene& scene, const AnySampler& guide);
+NamedPoint named_pixel(const std::string& text, const TraceScene& scene, const AnySampler& guide);
 
 /// Point from "x,y,z" or "x,y,z:nx,ny,nz" of --point. Throws InputError if it is outside the tree's cube.
-NamedPlace point_place(const std::string& text, const AnySampler& guide);
+NamedPoint named_point(const std::string& text, const AnySampler& guide);
 
 /// A learned distribution beside true ones.
 struct Comparison {
@@ -32,16 +32,16 @@ struct Comparison {
 };
 
 /// Results at one point.
-struct PlaceReport {
+struct PointReport {
     std::string text;
     Vec3 position{0.0f};
-    PlaceFacts facts;
+    PointFacts facts;
     double reflected = 0;  ///< radiance (mean of the channels) from the surface to the pixel, by brute force
     std::vector<Comparison> comparisons;
 };
 
 /// Traces the true distributions at a point and writes its pictures to `folder`.
-PlaceReport look_at_place(const NamedPlace& named, const InspectedRun& run, const TraceScene& scene,
+PointReport inspect_point(const NamedPoint& named, const InspectedRun& run, const TraceScene& scene,
                           const AnySampler& guide, const BruteForce& settings, const std::filesystem::path& folder);
 
 }  // namespace treefarm

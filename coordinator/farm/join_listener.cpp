@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/farm/guest_door.h"
+#include "coordinator/farm/join_listener.h"
 
 #include "common/base/text/parse_text.h"
 #include "common/comm/join_ticket.h"
 #include "common/comm/tcp_channel.h"
+#include "common/runs/run_files.h"
 
 namespace treefarm {
 
-GuestDoor::GuestDoor(Channel& channel, const Job::Farm& farm, std::uint64_t fingerprint,
-                     const std::filesystem::path& run, const Log& log) {
+JoinListener::JoinListener(Channel& channel, const Job::Farm& farm, std::uint64_t fingerprint,
+                           const std::filesystem::path& run, const Log& log) {
     if (!farm.join) return;
     GuestOptions options;
     options.address = farm.join_address;
@@ -24,7 +25,7 @@ GuestDoor::GuestDoor(Channel& channel, const Job::Farm& farm, std::uint64_t fing
     log->debug("only guests are authenticated: the network between MPI processes is trusted");
 }
 
-GuestDoor::~GuestDoor() {
+JoinListener::~JoinListener() {
     std::error_code ignored;
     if (!ticket_.empty()) std::filesystem::remove(ticket_, ignored);
 }

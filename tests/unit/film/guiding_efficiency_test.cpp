@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // guiding.type "auto": what guided paths tell of unguided ones, and what is made of it.
-#include "common/film/guiding_worth.h"
+#include "common/film/guiding_efficiency.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "common/plan/schedule/guiding_verdict.h"
 #include "common/plan/schedule/learning.h"
 #include "coordinator/passes/render_state.h"
 #include "tests/support/resolved.h"
-#include "worker/integrators/path/unguided_twin.h"
+#include "worker/integrators/path/unguided_estimate.h"
 
 namespace treefarm {
 namespace {
@@ -46,34 +45,34 @@ ImageLevels even_levels() {
 }
 
 /// Worth by pixels that deviate by a half, at 8 rays a sample.
-GuidingWorth worth_of(const UnguidedSums& sums, const ImageLevels& levels = even_levels()) {
-    return guiding_evidence(sums, pixels(0.5f), levels, kWidth, 8.0).worth();
+GuidingEfficiency efficiency_of(const UnguidedSums& sums, const ImageLevels& levels = even_levels()) {
+    return guiding_evidence(sums, pixels(0.5f), levels, kWidth, 8.0).efficiency();
 }
 
-TEST(GuidingWorth, IsVarianceTimesCostOfUnguidedOverGuidedSamples) {
-    const GuidingWorth worth = worth_of(sums_of(0.5, 1.5, 4.0));
+TEST(GuidingEfficiency, IsVarianceTimesCostOfUnguidedOverGuidedSamples) {
+    const GuidingEfficiency efficiency = efficiency_of(sums_of(0.5, 1.5, 4.0));
     const double unbiased = kSamples / (kSamples - 1.0);
-    EXPECT_NEAR(worth.guided_variance, 0.25 * unbiased, 1e-3);
+    EXPECT_NEAR(efficiency.guided_variance, 0.25 * unbiased, 1e-3);
     // The mean's square is that of the guided pixels, of which the noise is taken away.
-    EXPECT_NEAR(worth.unguided_variance, 1 + 2.25 - (1 + 0.25 - 0.25 * unbiased), 1e-3);
-    EXPECT_NEAR(worth.unguided_cost, 4.0, 1e-6);
-    EXPECT_NEAR(worth.worth, worth.unguided_variance * 4.0 / (worth.guided_variance * 8.0), 1e-9);
-    EXPECT_NEAR(worth.error, 0, 1e-3) << "all groups alike";
-    EXPECT_GT(worth.known, 60);
+    EXPECT_NEAR(efficiency.unguided_variance, 1 + 2.25 - (1 + 0.25 - 0.25 * unbiased), 1e-3);
+    EXPECT_NEAR(efficiency.unguided_cost, 4.0, 1e-6);
+    EXPECT_NEAR(efficiency.efficiency, efficiency.unguided_variance * 4.0 / (efficiency.guided_variance * 8.0), 1e-9);
+    EXPECT_NEAR(efficiency.error, 0, 1e-3) << "all groups alike";
+    EXPECT_GT(efficiency.known, 60);
 }
 
-TEST(GuidingWorth, AFewGroupsThatKnowItAllAreNotSure) {
+TEST(GuidingEfficiency, AFewGroupsThatKnowItAllAreNotSure) {
     UnguidedSums sums = sums_of(0.5, 0.5, 4.0);
     sums.unguided[5] += static_cast<std::uint64_t>(1000 * kSamples / UnguidedSums::kMomentUnit);
-    const GuidingWorth worth = worth_of(sums);
-    EXPECT_GT(worth.error, 0.8);
-    EXPECT_LT(worth.known, 4);
-    EXPECT_EQ(worth_of({}).worth, 0) << "nothing was counted";
-    EXPECT_EQ(worth_of(sums, {}).worth, 0) << "the image was black before";
+    const GuidingEfficiency efficiency = efficiency_of(sums);
+    EXPECT_GT(efficiency.error, 0.8);
+    EXPECT_LT(efficiency.known, 4);
+    EXPECT_EQ(efficiency_of({}).efficiency, 0) << "nothing was counted";
+    EXPECT_EQ(efficiency_of(sums, {}).efficiency, 0) << "the image was black before";
 }
 
 /// Evidence of several passes is that of one with all their samples.
-TEST(GuidingWorth, EvidenceAddsUpBySamples) {
+TEST(GuidingEfficiency, EvidenceAddsUpBySamples) {
     const auto of = [](double samples, double guided, double unguided, double cost) {
         GuidingEvidence evidence{.samples = samples, .guided_cost = cost, .unguided_cost = 2 * cost};
         evidence.guided.fill(guided);
@@ -83,31 +82,31 @@ TEST(GuidingWorth, EvidenceAddsUpBySamples) {
     GuidingEvidence all;
     all.add({});
     EXPECT_EQ(all, GuidingEvidence());
-    EXPECT_EQ(all.worth(), GuidingWorth());
+    EXPECT_EQ(all.efficiency(), GuidingEfficiency());
     all.add(of(8, 1, 2, 4));
     EXPECT_EQ(all, of(8, 1, 2, 4));
     all.add(of(24, 3, 6, 8));
     all.add({});
-    EXPECT_NEAR(all.worth().guided_variance, 64 * 2.5, 1e-9);
-    EXPECT_NEAR(all.worth().unguided_variance, 64 * 5, 1e-9);
-    EXPECT_NEAR(all.worth().guided_cost, 7, 1e-9);
-    EXPECT_NEAR(all.worth().worth, 4, 1e-9);
+    EXPECT_NEAR(all.efficiency().guided_variance, 64 * 2.5, 1e-9);
+    EXPECT_NEAR(all.efficiency().unguided_variance, 64 * 5, 1e-9);
+    EXPECT_NEAR(all.efficiency().guided_cost, 7, 1e-9);
+    EXPECT_NEAR(all.efficiency().efficiency, 4, 1e-9);
     EXPECT_EQ(all.samples, 32);
     // A group that knows it all in either pass: two of them in both.
     GuidingEvidence rare = of(8, 0, 0, 4), other = rare;
     rare.guided[3] = rare.unguided[3] = other.guided[9] = other.unguided[9] = 1;
-    EXPECT_NEAR(rare.worth().known, 1, 1e-9);
+    EXPECT_NEAR(rare.efficiency().known, 1, 1e-9);
     rare.add(other);
-    EXPECT_NEAR(rare.worth().known, 2, 1e-9);
+    EXPECT_NEAR(rare.efficiency().known, 2, 1e-9);
 }
 
-Guiding verdict(std::uint32_t spp, double worth, double error = 0, double mistrust = 1, double known = 20) {
+Guiding verdict(std::uint32_t spp, double efficiency, double error = 0, double mistrust = 1, double known = 20) {
     PassPlan pass;
     pass.spp = spp;
-    return judge_guiding(pass, {.worth = worth, .error = error, .known = known}, {}, mistrust);
+    return judge_guiding(pass, {.efficiency = efficiency, .error = error, .known = known}, {}, mistrust);
 }
 
-TEST(GuidingWorth, GuidingEndsWhereItSurelyLoses) {
+TEST(GuidingEfficiency, GuidingEndsWhereItSurelyLoses) {
     EXPECT_EQ(verdict(2, 0.1), Guiding::open) << "too short";
     EXPECT_EQ(verdict(64, 0), Guiding::open) << "not known";
     EXPECT_EQ(verdict(8, 0.8), Guiding::open) << "trees of short passes get better";
@@ -125,18 +124,19 @@ TEST(GuidingWorth, GuidingEndsWhereItSurelyLoses) {
 }
 
 /// A tree that is worth more than the one before is judged as it may become.
-TEST(GuidingWorth, TreesThatGetBetterAreJudgedByTheNext) {
-    const auto after = [](double before, double worth, std::uint32_t spp = 8, double error = 0) {
+TEST(GuidingEfficiency, TreesThatGetBetterAreJudgedByTheNext) {
+    const auto after = [](double before, double efficiency, std::uint32_t spp = 8, double error = 0) {
         PassPlan pass;
         pass.spp = spp;
-        return judge_guiding(pass, {.worth = worth, .error = error, .known = 20}, {.worth = before, .known = 20}, 1);
+        return judge_guiding(pass, {.efficiency = efficiency, .error = error, .known = 20},
+                             {.efficiency = before, .known = 20}, 1);
     };
     EXPECT_EQ(after(0, 0.8), Guiding::open) << "the first that is known";
     EXPECT_EQ(after(0.78, 0.8), Guiding::open);
     EXPECT_EQ(after(0.78, 0.8, 64), Guiding::loses) << "0.82 is next";
     PassPlan pass;
     pass.spp = 64;
-    EXPECT_EQ(judge_guiding(pass, {.worth = 0.8, .known = 20}, {.worth = 0.5, .known = 2}, 1), Guiding::loses)
+    EXPECT_EQ(judge_guiding(pass, {.efficiency = 0.8, .known = 20}, {.efficiency = 0.5, .known = 2}, 1), Guiding::loses)
         << "a sample or two are all that was known before";
     EXPECT_EQ(after(0.9, 0.8), Guiding::open) << "a noisy figure";
     EXPECT_EQ(after(0.9, 0.7), Guiding::loses);
@@ -148,7 +148,7 @@ TEST(GuidingWorth, TreesThatGetBetterAreJudgedByTheNext) {
     EXPECT_EQ(after(0.80, 0.83, 64), Guiding::open) << "as much again is 0.861";
 }
 
-TEST(GuidingWorth, WhereGuidingLosesPassesAreUnguidedAndTeachNothing) {
+TEST(GuidingEfficiency, WhereGuidingLosesPassesAreUnguidedAndTeachNothing) {
     Job job;
     for (const GuidingType type : {GuidingType::automatic, GuidingType::view})
         for (const Guiding known : {Guiding::open, Guiding::loses}) {
@@ -249,10 +249,10 @@ class Passes {
 TEST(GuidingMemory, PassesThatEachKnowTooLittleKnowEnoughTogether) {
     Passes passes;
     const GuidingVerdict first = passes.guided(2, 1, 0, 2), second = passes.guided(2, 1, 2, 2);
-    EXPECT_NEAR(first.worth.known, 2, 1e-9);
+    EXPECT_NEAR(first.efficiency.known, 2, 1e-9);
     EXPECT_EQ(first.guiding, Guiding::open);
-    EXPECT_NEAR(second.worth.known, 4, 1e-9);
-    EXPECT_NEAR(second.worth.worth, 0.5, 1e-9);
+    EXPECT_NEAR(second.efficiency.known, 4, 1e-9);
+    EXPECT_NEAR(second.efficiency.efficiency, 0.5, 1e-9);
     EXPECT_EQ(second.guiding, Guiding::loses);
 }
 
@@ -260,7 +260,7 @@ TEST(GuidingMemory, APassThatHasMissedLightIsJudgedByAll) {
     Passes passes;
     EXPECT_EQ(passes.guided(10, 100).guiding, Guiding::open);
     const GuidingVerdict missed = passes.guided(2, 1);
-    EXPECT_NEAR(missed.worth.unguided_variance, 50.5, 1e-9);
+    EXPECT_NEAR(missed.efficiency.unguided_variance, 50.5, 1e-9);
     EXPECT_EQ(missed.guiding, Guiding::open) << "by itself it would be worth a half";
     for (int pass = 0; pass < 120; ++pass)
         passes.guided(2, 1);
@@ -273,7 +273,7 @@ TEST(GuidingMemory, WhatShortPassesToldIsForgotten) {
     EXPECT_EQ(passes.guided(10, 100).guiding, Guiding::open);
     passes.set_spp(16);
     const GuidingVerdict settled = passes.guided(2, 1);
-    EXPECT_NEAR(settled.worth.unguided_variance, 1, 1e-9);
+    EXPECT_NEAR(settled.efficiency.unguided_variance, 1, 1e-9);
     EXPECT_EQ(settled.guiding, Guiding::loses);
 }
 
@@ -316,49 +316,49 @@ TEST(Automatic, AnImageWithoutLightStaysGuided) {
     image.mean.assign(kPixels, Rgb64(0.0));
     judge(state, resolved, image, kWidth, report);
     EXPECT_EQ(report.guiding, Guiding::open);
-    EXPECT_EQ(report.guiding_worth.worth, 0);
+    EXPECT_EQ(report.guiding_efficiency.efficiency, 0);
     EXPECT_TRUE(state.tree.regions().image.inverse_levels.empty());
     EXPECT_EQ(state.tree.regions().image.next_event, 0);
 }
 
 /// Paths of up to three steps: each goes left with the chance `a` (guided) or `b` (unguided), finds 1 on the left and 3
 /// on the right, and ends. What guided paths tell is held against the unguided sum over all ways.
-TEST(UnguidedTwin, TellsTheSecondMomentAndCostOfUnguidedPaths) {
+TEST(UnguidedEstimate, TellsTheSecondMomentAndCostOfUnguidedPaths) {
     constexpr double kGuided = 0.7, kUnguided = 0.2, kLeft = 0.9, kRight = 0.4;
     double truth = 0, true_cost = 0, told = 0, cost = 0;
     constexpr int kSteps = 3;
     for (int way = 0; way < (1 << kSteps); ++way) {
         double guided = 1, unguided = 1, found = 0, carried = 1;
         float throughput = 1.0f;
-        UnguidedTwin twin;
+        UnguidedEstimate estimate;
         for (int step = 0; step < kSteps; ++step) {
             const bool left = way >> step & 1;
             const double p = left ? kGuided : 1 - kGuided, q = left ? kUnguided : 1 - kUnguided;
-            twin.add_cost(1.0f);
+            estimate.add_cost(1.0f);
             guided *= p;
             unguided *= q;
             carried *= (left ? kLeft : kRight) / q;
             throughput *= static_cast<float>((left ? kLeft : kRight) / p);
-            twin.step(static_cast<float>(p), static_cast<float>(q));
+            estimate.step(static_cast<float>(p), static_cast<float>(q));
             found += carried * (left ? 1.0 : 3.0);
-            twin.add(throughput * (left ? 1.0f : 3.0f));
+            estimate.add(throughput * (left ? 1.0f : 3.0f));
         }
         truth += unguided * found * found;
         true_cost += unguided * kSteps;
-        told += guided * double(twin.moment());
-        cost += guided * double(twin.cost());
+        told += guided * double(estimate.moment());
+        cost += guided * double(estimate.cost());
     }
     EXPECT_NEAR(told / truth, 1.0, 1e-5);
     EXPECT_NEAR(cost / true_cost, 1.0, 1e-5);
 }
 
-TEST(UnguidedTwin, WhatUnguidedPathsNeverDoTellsNothing) {
-    UnguidedTwin twin;
-    twin.step(0.5f, 0.0f);
-    twin.add(3.0f);
-    twin.add_cost(1.0f);
-    EXPECT_EQ(twin.moment(), 0.0f);
-    EXPECT_EQ(twin.cost(), 0.0f);
+TEST(UnguidedEstimate, WhatUnguidedPathsNeverDoTellsNothing) {
+    UnguidedEstimate estimate;
+    estimate.step(0.5f, 0.0f);
+    estimate.add(3.0f);
+    estimate.add_cost(1.0f);
+    EXPECT_EQ(estimate.moment(), 0.0f);
+    EXPECT_EQ(estimate.cost(), 0.0f);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace treefarm {
 ///
 /// `moment` is the sum over all contributions of the increase of the squared total, times that probability ratio; its
 /// expectation is exactly the second moment of unguided samples.
-class UnguidedTwin {
+class UnguidedEstimate {
   public:
     /// Continues along a direction, with the guided and unguided density; or through roulette, with the two survival
     /// probabilities.
@@ -39,10 +39,10 @@ class UnguidedTwin {
 
     /// Estimate for a path that is split off: it starts with the luminance found so far, but with moment and cost 0,
     /// since the original path's estimate counts those.
-    UnguidedTwin split_off() const {
-        UnguidedTwin twin = *this;
-        twin.moment_ = twin.cost_ = 0.0f;
-        return twin;
+    UnguidedEstimate split_off() const {
+        UnguidedEstimate estimate = *this;
+        estimate.moment_ = estimate.cost_ = 0.0f;
+        return estimate;
     }
 
   private:
@@ -50,17 +50,17 @@ class UnguidedTwin {
 };
 
 /// Estimate of unguided samples from a camera path and all of its split paths: second moment, and cost in rays.
-struct UnguidedTell {
+struct UnguidedTotal {
     float moment = 0.0f, cost = 0.0f;
 
-    void add(const UnguidedTell& other) {
+    void add(const UnguidedTotal& other) {
         moment += other.moment;
         cost += other.cost;
     }
     /// Adds the other way out of glass; `product`: twice the product of both ways' luminances.
-    void add(const UnguidedTwin& way, float product) {
-        moment += way.moment() + product;
-        cost += way.cost();
+    void add(const UnguidedEstimate& branch, float product) {
+        moment += branch.moment() + product;
+        cost += branch.cost();
     }
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "worker/tools/inspect_place.h"
+#include "worker/tools/inspect_point.h"
 
 #include <array>
 #include <atomic>
@@ -27,24 +27,24 @@ struct Scattering {
 template <class Surface>
 class Scatterer {
   public:
-    Scatterer(const TraceScene& scene, const InspectedPlace& place, bool strict_normals)
-        : place_(place), strict_(strict_normals), scratch_(Surface::make_scratch(scene)) {
-        if (place.surface) surface_.emplace(scene, place.hit, place.outgoing, scratch_);
+    Scatterer(const TraceScene& scene, const InspectedPoint& point, bool strict_normals)
+        : point_(point), strict_(strict_normals), scratch_(Surface::make_scratch(scene)) {
+        if (point.surface) surface_.emplace(scene, point.hit, point.outgoing, scratch_);
     }
 
     const Surface& surface() const { return *surface_; }
 
     /// Receiver of the point, as next event chooses an emitter for it.
     LightReceiver receiver(const LightProbabilities* learned) const {
-        if (!surface_) return {place_.hit.p, learned, place_.normal ? &place_.hit.ns : nullptr};
+        if (!surface_) return {point_.hit.p, learned, point_.normal ? &point_.hit.ns : nullptr};
         const Vec3 front = surface_->front();
-        return {place_.hit.p, learned, surface_->transmits() ? nullptr : &front};
+        return {point_.hit.p, learned, surface_->transmits() ? nullptr : &front};
     }
 
     Scattering toward(const Vec3& d) const {
         if (!surface_) {
-            if (!place_.normal) return {Rgb(1.0f), 0.25f / kPi, true};
-            const float cosine = dot(place_.hit.ns, d);
+            if (!point_.normal) return {Rgb(1.0f), 0.25f / kPi, true};
+            const float cosine = dot(point_.hit.ns, d);
             return {Rgb(1.0f), std::max(cosine, 0.0f) / kPi, cosine > 0.0f};
         }
         const Vec3 wi = surface_->frame().to_local(d);
@@ -54,7 +54,7 @@ class Scatterer {
     }
 
   private:
-    const InspectedPlace& place_;
+    const InspectedPoint& point_;
     const bool strict_;
     typename Surface::Scratch scratch_;
     std::optional<Surface> surface_;
@@ -78,8 +78,8 @@ EmitterHit intersect_emitter(const TraceScene& scene, const LightReceiver& from,
 }
 
 template <class Surface>
-void add_surface_facts(const TraceScene& scene, const InspectedPlace& place, PlaceFacts& facts) {
-    const Scatterer<Surface> scatterer(scene, place, false);
+void add_surface_facts(const TraceScene& scene, const InspectedPoint& point, PointFacts& facts) {
+    const Scatterer<Surface> scatterer(scene, point, false);
     facts.black = scatterer.surface().black();
     if (facts.black) return;
     facts.smooth = scatterer.surface().smooth();
@@ -87,10 +87,10 @@ void add_surface_facts(const TraceScene& scene, const InspectedPlace& place, Pla
 }
 
 /// Properties of a point's surface without any guide.
-PlaceFacts surface_facts(const TraceScene& scene, const InspectedPlace& place) {
-    PlaceFacts facts;
-    if (place.surface && scene.plainly_diffuse()) add_surface_facts<DiffuseSurface>(scene, place, facts);
-    if (place.surface && !scene.plainly_diffuse()) add_surface_facts<GeneralSurface>(scene, place, facts);
+PointFacts surface_facts(const TraceScene& scene, const InspectedPoint& point) {
+    PointFacts facts;
+    if (point.surface && scene.plainly_diffuse()) add_surface_facts<DiffuseSurface>(scene, point, facts);
+    if (point.surface && !scene.plainly_diffuse()) add_surface_facts<GeneralSurface>(scene, point, facts);
     return facts;
 }
 
@@ -102,15 +102,15 @@ struct SeenSurface {
 };
 
 template <GuideWalk G>
-typename G::Guidance guidance_at(const typename G::Sampler& guide, const InspectedPlace& place,
-                                 const PlaceFacts& facts) {
+typename G::Guidance guidance_at(const typename G::Sampler& guide, const InspectedPoint& point,
+                                 const PointFacts& facts) {
     typename G::Guidance guidance = G::unguided();
-    guidance.region = guide.region(place.hit.p);
+    guidance.region = guide.region(point.hit.p);
     if (facts.smooth) guidance.bsdf_fraction = guide.bsdf_fraction(guidance.region);
     typename G::Outgoing outgoing{};
     if constexpr (G::kLocal)
-        G::template localise<true>(guide, SeenSurface{place.surface && facts.smooth && facts.view_dependent},
-                                   place.outgoing, outgoing, guidance);
+        G::template localise<true>(guide, SeenSurface{point.surface && facts.smooth && facts.view_dependent},
+                                   point.outgoing, outgoing, guidance);
     return guidance;
 }
 
@@ -130,18 +130,18 @@ struct Square {
 };
 
 template <GuideWalk G, class Surface>
-class PlaceTracer {
+class PointTracer {
   public:
-    PlaceTracer(const TraceScene& scene, const Resolved& job, const typename G::Sampler& guide,
-                const InspectedPlace& place, const BruteForce& settings)
+    PointTracer(const TraceScene& scene, const Resolved& job, const typename G::Sampler& guide,
+                const InspectedPoint& point, const BruteForce& settings)
         : scene_(scene),
           guide_(guide),
-          place_(place),
+          point_(point),
           settings_(settings),
-          guidance_(guidance_at<G>(guide, place, surface_facts(scene, place))),
+          guidance_(guidance_at<G>(guide, point, surface_facts(scene, point))),
           mis_(job.integrator.mis),
           seed_(job.sampler.seed),
-          scatterer_(scene, place, job.integrator.strict_normals),
+          scatterer_(scene, point, job.integrator.strict_normals),
           kernel_(scene, guide, PathSettings(scene, unguided(job), next_event_pass(), guide), stats_) {}
 
     Square square(std::uint32_t column, std::uint32_t row) {
@@ -173,7 +173,7 @@ class PlaceTracer {
         const float pdf = G::pdf(guide_, guidance_, scattering.bsdf_pdf, G::direction_at(at));
         sums.sampled += static_cast<double>(pdf);
         if (!scattering.reflects) return;
-        const Ray ray{offset_origin(place_.hit, d), d};
+        const Ray ray{offset_origin(point_.hit, d), d};
         const EmitterHit emitter =
             intersect_emitter(scene_, scatterer_.receiver(guide_.light_probabilities(guidance_.region)), ray);
         if (!is_black(emitter.emitted)) {
@@ -202,7 +202,7 @@ class PlaceTracer {
 
     const TraceScene& scene_;
     const typename G::Sampler& guide_;
-    const InspectedPlace& place_;
+    const InspectedPoint& point_;
     const BruteForce& settings_;
     const typename G::Guidance guidance_;
     const MisHeuristic mis_;
@@ -215,13 +215,13 @@ class PlaceTracer {
 };
 
 template <GuideWalk G, class Surface>
-PlaceTruth trace_with(const TraceScene& scene, const Resolved& job, const typename G::Sampler& guide,
-                      const InspectedPlace& place, const BruteForce& settings) {
+PointTruth trace_with(const TraceScene& scene, const Resolved& job, const typename G::Sampler& guide,
+                      const InspectedPoint& point, const BruteForce& settings) {
     const std::uint32_t side = 1u << settings.bits;
     std::vector<Square> squares(std::size_t{side} * side);
     std::atomic<std::uint32_t> next_row = 0;
     const auto work = [&] {
-        const auto tracer = std::make_unique<PlaceTracer<G, Surface>>(scene, job, guide, place, settings);
+        const auto tracer = std::make_unique<PointTracer<G, Surface>>(scene, job, guide, point, settings);
         for (std::uint32_t row; (row = next_row++) < side;)
             for (std::uint32_t column = 0; column < side; ++column)
                 squares[std::size_t{row} * side + column] = tracer->square(column, row);
@@ -237,32 +237,32 @@ PlaceTruth trace_with(const TraceScene& scene, const Resolved& job, const typena
             means.push_back(static_cast<float>(square.*value / settings.samples));
         return means;
     };
-    PlaceTruth truth;
+    PointTruth truth;
     truth.radiance = mean(&Square::radiance);
     if (settings.next_event) truth.left = mean(&Square::left);
-    if (place.surface) truth.reflected = mean(&Square::reflected);
-    if (place.surface && settings.next_event) truth.left_reflected = mean(&Square::left_reflected);
+    if (point.surface) truth.reflected = mean(&Square::reflected);
+    if (point.surface && settings.next_event) truth.left_reflected = mean(&Square::left_reflected);
     truth.sampled = mean(&Square::sampled);
     return truth;
 }
 
 }  // namespace
 
-std::optional<InspectedPlace> seen_point(const TraceScene& scene, int x, int y) {
+std::optional<InspectedPoint> seen_point(const TraceScene& scene, int x, int y) {
     const Ray ray = scene.camera().generate(x, y, Draw{kMiddle, kMiddle, kMiddle, kMiddle});
-    InspectedPlace place;
-    if (!scene.geometry().intersect(ray, place.hit)) return std::nullopt;
-    place.outgoing = -ray.direction;
-    place.surface = place.normal = true;
-    return place;
+    InspectedPoint point;
+    if (!scene.geometry().intersect(ray, point.hit)) return std::nullopt;
+    point.outgoing = -ray.direction;
+    point.surface = point.normal = true;
+    return point;
 }
 
-PlaceFacts place_facts(const TraceScene& scene, const AnySampler& guide, const InspectedPlace& place) {
-    PlaceFacts facts = surface_facts(scene, place);
-    facts.inside = guide.regions().contains(place.hit.p);
+PointFacts point_facts(const TraceScene& scene, const AnySampler& guide, const InspectedPoint& point) {
+    PointFacts facts = surface_facts(scene, point);
+    facts.inside = guide.regions().contains(point.hit.p);
     guide.visit([&]<class G>(const auto& sampler) {
         using Walk = WalkOf<typename G::Sampler>;
-        const auto guidance = guidance_at<Walk>(sampler, place, facts);
+        const auto guidance = guidance_at<Walk>(sampler, point, facts);
         facts.guidance.region = guidance.region;
         facts.guidance.bsdf_fraction = guidance.bsdf_fraction;
         if constexpr (Walk::kLocal) {
@@ -273,12 +273,12 @@ PlaceFacts place_facts(const TraceScene& scene, const AnySampler& guide, const I
     return facts;
 }
 
-PlaceTruth trace_place(const TraceScene& scene, const Resolved& job, const AnySampler& guide,
-                       const InspectedPlace& place, const BruteForce& settings) {
+PointTruth trace_point(const TraceScene& scene, const Resolved& job, const AnySampler& guide,
+                       const InspectedPoint& point, const BruteForce& settings) {
     return guide.visit([&]<class G>(const auto& sampler) {
         using Walk = WalkOf<typename G::Sampler>;
-        return scene.plainly_diffuse() ? trace_with<Walk, DiffuseSurface>(scene, job, sampler, place, settings)
-                                       : trace_with<Walk, GeneralSurface>(scene, job, sampler, place, settings);
+        return scene.plainly_diffuse() ? trace_with<Walk, DiffuseSurface>(scene, job, sampler, point, settings)
+                                       : trace_with<Walk, GeneralSurface>(scene, job, sampler, point, settings);
     });
 }
 
