@@ -8,7 +8,7 @@ namespace treefarm {
 
 namespace {
 
-constexpr double kLeastSpeed = 1.0;  ///< of one that stands still: it may move again
+constexpr double kLeastSpeed = 1.0;  ///< of a worker without progress: it may resume
 constexpr double kHalfLife = 2.0;    ///< of a measured speed, seconds
 // What a worker is handed at once: little enough that the last units of a pass spread over all workers.
 constexpr double kMostSeconds = 2.0;  ///< of its work
@@ -70,7 +70,7 @@ double Speeds::gain(int here, std::uint64_t paths, int holder, std::uint64_t out
     // A worker that finished all before its speed was known is fast.
     const double takes = per_thread_ > 0 || known(here) ? static_cast<double>(paths) / speed(here) : 0.0;
     const double saved = static_cast<double>(outstanding) / speed(holder) - takes;
-    // Both may end together, and then the slower one's whole result is dropped.
+    // If both end at the same time, the slower one's whole result is dropped.
     return saved > std::max(kCopyGain, kCopyRatio * takes) ? saved : 0;
 }
 

@@ -15,7 +15,7 @@ RunJson forecast_record(const ErrorForecast& forecast);
 /// The figures of a pass for `place`, kInSummary or kInCell.
 RunJson pass_record(const PassReport& report, unsigned place);
 
-/// passes.csv: the header line and the line of a pass, without line ends.
+/// Header line and a pass's line of passes.csv, without line ends.
 std::string pass_csv_header();
 std::string pass_csv_line(const PassReport& report);
 

@@ -60,7 +60,7 @@ class LaunchWorld {
         step();
         return end ? std::optional(end->code) : std::nullopt;
     }
-    /// The coordinator says its exit code, and all its processes leave.
+    /// Reports the coordinator's exit code; all its processes leave.
     void finish(int code) {
         if (!status) appear();
         status->code = code;
