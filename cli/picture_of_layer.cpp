@@ -17,12 +17,12 @@ std::string layer_of(const std::string& channel) {
     return dot == std::string::npos ? "" : channel.substr(0, dot);
 }
 
-/// Inverse of the sRGB curve: the linear value of `shown`.
+/// Linear value that the sRGB curve maps to `shown`, for values that are not light.
 float plain(float shown) {
     return srgb_decode(shown > 0.0f ? std::min(shown, 1.0f) : 0.0f);
 }
 
-/// Least and greatest finite value; 0, which means nothing, is left out if there is any other.
+/// Range of the finite values; zero is kept apart if there are other values.
 struct Range {
     float low = 0, high = 0;
 
@@ -35,7 +35,7 @@ struct Range {
             any = true;
         }
     }
-    /// Maps to 0.1 to 1, so that the least value is not black.
+    /// The value scaled to 0.1 to 1, so that the least is not black.
     float normalised(float v) const {
         if (v == 0.0f || std::isnan(v)) return 0.0f;
         return high > low ? 0.1f + 0.9f * (v - low) / (high - low) : 1.0f;
@@ -49,7 +49,7 @@ std::string range_text(const std::string& channel, const Range& range) {
     return channel + text;
 }
 
-/// Colour of a number, different for each.
+/// A distinct colour for each number.
 Rgb colour_of(float number) {
     if (!(number > 0.0f)) return Rgb(0.0f);
     const float hue = number * 0.6180339887f - std::floor(number * 0.6180339887f);  // far from those of neighbours
@@ -84,7 +84,7 @@ ImageLayer find_image_layer(const Image& image, const std::string& layer, const 
     }
     if (layer == "alpha")
         if (const auto alpha = image.find("A")) return {ImageLayer::Kind::single, {*alpha}};
-    if (const auto whole = image.find(layer)) return {ImageLayer::Kind::single, {*whole}};  // a channel's full name
+    if (const auto whole = image.find(layer)) return {ImageLayer::Kind::single, {*whole}};  // full name of a channel
     std::string list;
     for (const std::string& name : layer_names(image))
         list += (list.empty() ? "" : ", ") + (name.empty() ? "the image itself" : name);

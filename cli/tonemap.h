@@ -9,10 +9,10 @@
 
 namespace treefarm {
 
-/// Mapping from linear radiance to linear display colours.
+/// Map from linear radiance to values of a screen.
 enum class ToneMap {
-    srgb,      ///< clamped to 1
-    aces,      ///< per channel by the fit of Narkowicz (2015, "ACES filmic tone mapping curve"), as published
+    srgb,      ///< unchanged, up to 1
+    aces,      ///< per channel, Narkowicz' fit (2015, "ACES filmic tone mapping curve"), as published
     reinhard,  ///< L / (1 + L) of the luminance (Reinhard et al. 2002, equation 3), colours kept
 };
 
@@ -23,7 +23,7 @@ inline std::optional<ToneMap> find_tone_map(const std::string& name) {
     return std::nullopt;
 }
 
-/// Linear display colour, each channel in [0, 1], before the sRGB curve. Negative values and NaN become 0.
+/// Linear colour for the screen, each channel in [0, 1], before the sRGB curve. Negative values and NaN become 0.
 inline Rgb tone_mapped(ToneMap map, const Rgb& radiance) {
     constexpr float kMost = 1e15f;  // its square is finite
     Rgb c;

@@ -17,7 +17,7 @@ static_assert(std::endian::native == std::endian::little, "the wire and file for
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Types whose bytes may travel: fixed width, no padding questions, no pointers.
+/// Types whose bytes may be sent to another process: fixed width, no padding, no pointers.
 template <class T>
 concept Wire = std::is_arithmetic_v<T> && !std::is_same_v<T, bool> && !std::is_same_v<T, long double>;
 
@@ -54,7 +54,7 @@ class ByteWriter {
 
     void put_string(const std::string& text) { put_array(std::span<const char>(text.data(), text.size())); }
 
-    /// Room for so many more bytes: those written before need not be copied as the whole grows.
+    /// Reserves memory for `more` further bytes, so that appending them copies nothing.
     void reserve(std::size_t more) { bytes_.reserve(bytes_.size() + more); }
 
     std::size_t size() const { return bytes_.size(); }
@@ -80,7 +80,8 @@ class ByteReader {
     }
 
     std::uint64_t get_varint() {
-        // Where short ones are the rule it is predicted, and the next can be read before this one is.
+        // Most varints have one byte: the branch is predicted, and the next varint can be read before this one is
+        // decoded.
         if (remaining() > 0 && bytes_[at_] < 0x80) return bytes_[at_++];
         std::uint64_t word;
         if (remaining() >= sizeof word) {
@@ -90,7 +91,8 @@ class ByteReader {
         return get_varint_by_bytes();
     }
 
-    /// A count of elements that take at least `min_bytes_each` of what remains.
+    /// Number of elements (varint). Throws FormatError if `min_bytes_each` bytes per element exceed the bytes that
+    /// remain.
     std::size_t get_count(std::size_t min_bytes_each) {
         const std::uint64_t count = get_varint();
         if (min_bytes_each > 0 && count > remaining() / min_bytes_each)
@@ -113,7 +115,7 @@ class ByteReader {
         return std::string(text.begin(), text.end());
     }
 
-    /// So many of the bytes that remain.
+    /// The next `count` bytes; throws FormatError if fewer remain.
     std::span<const std::uint8_t> get_bytes(std::size_t count) {
         require(count);
         at_ += count;
@@ -128,13 +130,14 @@ class ByteReader {
 
     std::size_t remaining() const { return bytes_.size() - at_; }
 
-    /// Call last: left-over bytes mean that writer and reader disagree.
+    /// To be called last; bytes that remain mean that writer and reader disagree, and throw FormatError.
     void expect_end() const {
         if (remaining() > 0) throw FormatError(std::to_string(remaining()) + " unexpected bytes at the end");
     }
 
   private:
-    /// A varint of 2 to 8 bytes, the first of `word`; `ends` has the high bit of each byte set that may be the last.
+    /// Value of a varint of 2 to 8 bytes, whose first byte is the lowest of `word`. In `ends` the high bit is set of
+    /// each byte that can be the last one.
     std::uint64_t get_short_varint(std::uint64_t word, std::uint64_t ends) {
         const int high_bit = std::countr_zero(ends);
         if ((word >> (high_bit - 7)) % 256 == 0) throw_overlong();

@@ -23,8 +23,8 @@ Console::Console(TerminalKind kind, bool shows_status, int descriptor)
       descriptor_(descriptor),
       pace_(kind.live ? StatusPace(0, kRedrawSeconds) : StatusPace(kLineSeconds, kLineSeconds)) {}
 
-/// Writes a text in one piece where the system takes it so: processes of mpirun share a terminal. Nobody is told of
-/// what cannot be written: a render does not end because nobody looks on.
+/// Writes a text in one system call where possible, since several processes of mpirun share a terminal. Write errors
+/// are ignored: a render must not end because its terminal is closed.
 void Console::write(const std::string& text) const {
     for (std::size_t done = 0; done < text.size();) {
         const ssize_t count = ::write(descriptor_, text.data() + done, text.size() - done);
@@ -33,8 +33,8 @@ void Console::write(const std::string& text) const {
     }
 }
 
-/// The status line as it is drawn now. Asks for the width each time, so that it follows whoever resizes. The last
-/// column stays free: a terminal that has filled it may go on to the next line.
+/// The status line in its current form. The width is asked for each time, since a window may be resized. The last
+/// column stays free: some terminals begin a new line once it is filled.
 std::string Console::drawn_status() const {
     return "\r" + status_text(status_, terminal_columns(descriptor_) - 1) + "\x1b[K";
 }

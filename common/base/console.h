@@ -11,28 +11,28 @@
 
 namespace treefarm {
 
-/// How much of a log a person sees.
+/// Amount of log output on the console; the log file gets everything.
 enum class Verbosity {
-    quiet,    ///< errors
-    normal,   ///< what a stranger wants to know
+    quiet,    ///< errors only
+    normal,   ///< results, decisions and warnings
     verbose,  ///< every figure
 };
 
-/// Output for a person: lines of text and, on a terminal, below them a line that is drawn again and again. Where
-/// nothing can be drawn again the status is a whole line every ten seconds. Threads may share it.
+/// Output for a person: lines of text and, on a terminal, a status line below them that is redrawn. Where nothing can
+/// be redrawn (a file, a pipe) the status becomes a whole line every ten seconds. Thread-safe.
 class Console {
   public:
-    /// Writes to `descriptor`. `shows_status`: otherwise only lines.
+    /// `descriptor`: file descriptor of the output. `shows_status`: false suppresses the status, not the lines.
     Console(TerminalKind kind, bool shows_status, int descriptor = 2);
     ~Console() { end_status(); }
     Console(const Console&) = delete;
     Console& operator=(const Console&) = delete;
 
-    /// A line with its end; the status stays below it.
+    /// Writes a line and its line end; the status stays below it.
     void line(const std::string& text);
-    /// How far things are. Called as often as one likes.
+    /// Updates the progress shown. Cheap: redrawing is limited, so it may be called at any rate.
     void status(const Status& status);
-    /// Wipes the status.
+    /// Erases the status line.
     void end_status();
     const TerminalKind& kind() const { return kind_; }
 

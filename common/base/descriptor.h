@@ -14,7 +14,7 @@ class Descriptor {
   public:
     Descriptor() = default;
     explicit Descriptor(int fd) : fd_(fd) {}
-    /// An opened file, which no child process inherits; none where it cannot be opened, with errno.
+    /// Opens a file; child processes do not inherit the descriptor. Empty on failure, with errno set.
     static Descriptor open(const std::filesystem::path& path, int flags, mode_t mode = 0) {
         return Descriptor(::open(path.c_str(), flags | O_CLOEXEC, mode));
     }
@@ -30,7 +30,8 @@ class Descriptor {
     int fd() const { return fd_; }
     explicit operator bool() const { return fd_ >= 0; }
     int release() { return std::exchange(fd_, -1); }
-    /// Closes it now: a full network file system may report only here. False if it does, with errno.
+    /// Closes the descriptor early and reports errors, since a full network file system may report them only on close.
+    /// False on failure, with errno set.
     bool close() { return ::close(release()) == 0; }
 
   private:

@@ -6,19 +6,19 @@
 
 namespace treefarm {
 
-/// Where in an input something stands. `line` and `column` count from 1; 0 means unknown.
+/// Position in an input file. `line` and `column` count from 1; 0: unknown.
 struct Location {
     std::string file;
     int line = 0;
     int column = 0;
 
-    /// "file:line:col", leaving out what is unknown.
+    /// Text "file:line:col" without the unknown parts.
     std::string text() const;
     bool operator==(const Location&) const = default;
 };
 
 /// Bad usage or bad input: the program ends with exit code 2. The message is one line, "file:line:col: what, why, what
-/// to do", so that an editor can jump to the place and a person knows the next step.
+/// to do": an editor can jump to the position, and a person knows the next step.
 class InputError : public std::runtime_error {
   public:
     InputError(const Location& where, const std::string& what, const std::string& cure);
@@ -34,13 +34,13 @@ class InputError : public std::runtime_error {
     std::string problem_, cure_;
 };
 
-/// The run itself failed (lost workers, full disk, an internal inconsistency): exit code 1.
+/// Failure of the run itself (lost workers, full disk, an internal inconsistency): exit code 1.
 class RunError : public std::runtime_error {
   public:
     explicit RunError(const std::string& message) : std::runtime_error(message) {}
 };
 
-/// Bytes from another process or from a file that do not hold what they claim to.
+/// Malformed bytes from another process or from a file.
 class FormatError : public RunError {
   public:
     explicit FormatError(const std::string& message) : RunError(message) {}

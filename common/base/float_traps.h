@@ -7,15 +7,16 @@
 
 namespace treefarm {
 
-/// Floating-point exceptions (invalid, division by zero, overflow) that end the process where they happen. Only in
-/// builds of the preset `trap` (CMake's TREEFARM_TRAP, docs/design/testing.md); elsewhere all of this is nothing.
+/// Traps of floating-point exceptions (invalid, division by zero, overflow), which end the process at the faulty
+/// instruction. Active only in builds of the preset `trap` (CMake's TREEFARM_TRAP, docs/design/testing.md); in other
+/// builds everything here is empty.
 #ifdef TREEFARM_TRAPS
 inline constexpr bool kTrapsFloats = true;
 #else
 inline constexpr bool kTrapsFloats = false;
 #endif
 
-/// Keeps float exceptions trapped (or not) in this thread while it lives.
+/// Scope that enables (or disables) the traps in its thread.
 template <bool kOn>
 class FloatTraps {
   public:
@@ -36,15 +37,15 @@ class FloatTraps {
     unsigned before_ = 0;
 };
 
-/// In such a build, flushes denormals to zero if TREEFARM_FLUSH_DENORMALS stands in the environment.
+/// Flushes denormals to zero in a trap build if the environment variable TREEFARM_FLUSH_DENORMALS is set.
 inline void flush_denormals_if_asked() {
     if constexpr (kTrapsFloats)
         if (std::getenv("TREEFARM_FLUSH_DENORMALS")) _mm_setcsr(_mm_getcsr() | 0x8040u);
 }
 
-/// Around our own code.
+/// Scope of Treefarm's own code.
 using TrapFloats = FloatTraps<true>;
-/// Around other people's, and where what comes in may be NaN or infinite and is about to be checked.
+/// Scope of library code, and of code that is about to check input for NaN and infinity.
 using LetFloatsBe = FloatTraps<false>;
 
 }  // namespace treefarm

@@ -7,20 +7,20 @@
 
 namespace treefarm {
 
-/// XXH3 (64 bits) of some bytes: for equality of scenes, trees and images, not for security.
+/// XXH3 hash (64 bits) of some bytes: for equality of scenes, trees and images, not for security.
 std::uint64_t hash_bytes(std::span<const std::uint8_t> bytes);
 
-/// 16 hexadecimal digits.
+/// The hash as 16 hexadecimal digits.
 std::string hash_text(std::uint64_t hash);
 
-/// XXH3 with 128 bits, where bytes are known by their hash alone.
+/// XXH3 hash of 128 bits: used where equal hashes are taken for equal bytes.
 struct Hash128 {
     std::uint64_t low = 0, high = 0;
     bool operator==(const Hash128&) const = default;
 };
 Hash128 hash128_bytes(std::span<const std::uint8_t> bytes);
 
-/// 32 hexadecimal digits.
+/// The hash as 32 hexadecimal digits.
 std::string hash_text(const Hash128& hash);
 
 /// Mixes 64 bits to 64 well-spread bits (the finaliser of MurmurHash3).

@@ -9,7 +9,7 @@ struct XXH3_state_s;
 
 namespace treefarm {
 
-/// XXH3 with 128 bits of bytes that come in pieces: hash128_bytes() of all of them in a row.
+/// XXH3 hash of 128 bits over bytes that arrive in pieces; equals hash128_bytes() of their concatenation.
 class Hash128Stream {
   public:
     Hash128Stream();

@@ -26,11 +26,12 @@ std::optional<std::uint64_t> read_number(const fs::path& path) {
     std::uint64_t value = 0;
     if (!(std::ifstream(path) >> word)) return std::nullopt;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;  // "max"
+    if (error != std::errc() || end != word.data() + word.size())
+        return std::nullopt;  // the limit may be the word "max"
     return value;
 }
 
-/// The number behind `key` in a file of lines "key[:] number ...".
+/// The number after `key` in a file of lines "key[:] number ...".
 std::optional<std::uint64_t> find_number(const fs::path& path, const std::string& key) {
     std::ifstream file(path);
     for (std::string line; std::getline(file, line);) {
@@ -42,7 +43,8 @@ std::optional<std::uint64_t> find_number(const fs::path& path, const std::string
     return std::nullopt;
 }
 
-/// Bytes that a control group may still take; cached files can be dropped. `prefix` of their names in memory.stat.
+/// Bytes that a control group may still allocate; its cached files count as free. `prefix`: beginning of the cache
+/// entries' names in memory.stat.
 std::uint64_t left_of_group(const fs::path& folder, const char* limit_file, const char* usage_file,
                             const char* prefix) {
     const auto limit = read_number(folder / limit_file);
@@ -54,10 +56,11 @@ std::uint64_t left_of_group(const fs::path& folder, const char* limit_file, cons
     return *limit - std::min(*limit, usage - std::min(usage, cache));
 }
 
-/// The least that is left of the group `path` and those above it, below `root`.
+/// Least remainder, in bytes, of the group `path` and all its ancestors below `root`.
 std::uint64_t left_of_groups(const fs::path& root, const fs::path& path, const char* limit_file, const char* usage_file,
                              const char* prefix) {
-    std::uint64_t least = left_of_group(root, limit_file, usage_file, prefix);  // a container sees its own as the root
+    std::uint64_t least =
+        left_of_group(root, limit_file, usage_file, prefix);  // inside a container the own group appears as the root
     fs::path folder = root;
     for (const fs::path& part : path.relative_path()) {
         folder /= part;
@@ -66,7 +69,8 @@ std::uint64_t left_of_groups(const fs::path& root, const fs::path& path, const c
     return least;
 }
 
-/// Bytes left of this process's control groups, version 2 and 1 (/proc/self/cgroup: lines number:controllers:path).
+/// Bytes left to this process by its control groups, versions 1 and 2 (/proc/self/cgroup has lines
+/// "number:controllers:path").
 std::uint64_t left_of_control_groups() {
     const fs::path root = "/sys/fs/cgroup";
     std::uint64_t least = kUnlimited;

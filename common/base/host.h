@@ -6,17 +6,17 @@
 
 namespace treefarm {
 
-/// This machine's name.
+/// Network name of this machine.
 std::string host_name();
 
-/// The machine that a process runs on.
+/// A machine and its free memory.
 struct Host {
     std::string name;
-    std::uint64_t available_bytes = 0;  ///< memory that can still be had here; 0: not known
+    std::uint64_t available_bytes = 0;  ///< memory that a process here can still allocate; 0: unknown
 };
 
-/// This machine, now. Memory is what the kernel says is available, or what is left of a control group's limit if that
-/// is less: in a container or a Slurm job the group is what ends a process.
+/// Name and free memory of this machine. The memory is the kernel's figure, or the rest of a control group's limit if
+/// that is less: in a container or a Slurm job the group limit ends a process.
 Host this_host();
 
 /// Processors that this process may run on.

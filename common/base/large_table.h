@@ -14,9 +14,8 @@ namespace treefarm {
 /// Bytes of a huge page of x86-64.
 inline constexpr std::size_t kHugePage = std::size_t{1} << 21;
 
-/// Memory of at least kHugePage bytes lies in huge pages where the system grants them, so that look-ups all over a
-/// large table do not wait for page tables as well. For tables that live long: to find a huge page free may take a
-/// while.
+/// Allocator that requests huge pages for at least kHugePage bytes, so that random look-ups in a large table miss the
+/// TLB less often. For long-lived tables: finding a free huge page can take a while.
 template <class T>
 class HugePages {
   public:
@@ -34,7 +33,7 @@ class HugePages {
         const std::size_t bytes = (count * sizeof(T) + kHugePage - 1) / kHugePage * kHugePage;
         void* const memory = std::aligned_alloc(kHugePage, bytes);
         if (!memory) throw std::bad_alloc();
-        madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: without it pages are small
+        madvise(memory, bytes, MADV_HUGEPAGE);  // only advice: small pages are the fallback
         return static_cast<T*>(memory);
     }
     void deallocate(T* memory, std::size_t count) {
@@ -50,7 +49,7 @@ class HugePages {
     static bool is_large(std::size_t count) { return count >= kHugePage / sizeof(T); }
 };
 
-/// A vector for what is read at random and for long.
+/// Vector for large, long-lived data with random access.
 template <class T>
 using LargeTable = std::vector<T, HugePages<T>>;
 

@@ -16,7 +16,7 @@ namespace treefarm {
 
 namespace {
 
-/// A message's text without what could forge lines or steer a terminal.
+/// Text of a message without characters that could forge log lines or control a terminal.
 std::string payload(const spdlog::details::log_msg& message) {
     return printable({message.payload.data(), message.payload.size()});
 }
@@ -41,7 +41,7 @@ class TellingSink final : public spdlog::sinks::base_sink<spdlog::details::null_
     const TellMessage tell_;
 };
 
-/// The flag %*: the message on one line, whatever is in it.
+/// Format flag %*: the message on one line, with control characters replaced.
 class PrintableMessage final : public spdlog::custom_flag_formatter {
   public:
     void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& to) override {
@@ -51,8 +51,8 @@ class PrintableMessage final : public spdlog::custom_flag_formatter {
     std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<PrintableMessage>(); }
 };
 
-/// Appends lines to a file, which is opened for each: after a disk was full, or its folder was removed and made again,
-/// the log goes on. A line that cannot be written is lost; the terminal has it.
+/// File sink that opens the file for each line: the log resumes after a full disk, or after its folder was removed and
+/// made again. A line that cannot be written is lost in the file; the terminal has it.
 class AppendingSink final : public spdlog::sinks::base_sink<std::mutex> {
   public:
     explicit AppendingSink(std::filesystem::path file) : file_(std::move(file)) {
@@ -75,8 +75,8 @@ class AppendingSink final : public spdlog::sinks::base_sink<std::mutex> {
     const std::filesystem::path file_;
 };
 
-/// A file sink in a thread of its own: whoever logs answers workers, too, and cannot wait for a disk that hangs. Of
-/// more lines than the queue holds the oldest are lost; the terminal had them.
+/// File sink with a thread of its own: the thread that logs also answers workers and cannot wait for a stalled disk. If
+/// more lines wait than the queue holds, the oldest are lost in the file; the terminal has them.
 class BackgroundFileSink final : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
   public:
     BackgroundFileSink(const std::string& who, const std::filesystem::path& file)

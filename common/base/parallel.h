@@ -9,14 +9,14 @@
 
 namespace treefarm {
 
-/// Threads that pass over much memory side by side. Beyond eight, memory is what they wait for.
+/// Number of threads for passes over large memory: at most eight, beyond which memory bandwidth is the limit.
 inline unsigned sweeping_threads() {
     return std::clamp(std::thread::hardware_concurrency(), 1u, 8u);
 }
 
-/// Calls part(begin, end) for consecutive parts of [0, count) that cover it, side by side by sweeping_threads(); none
-/// is smaller than `least`. For what the coordinator does between passes, while nobody
-/// traces: results must not depend on where the parts begin. Throws what a part throws.
+/// Calls part(begin, end) in parallel on sweeping_threads() threads for consecutive ranges that cover [0, count), each
+/// at least `least` long. Used by the coordinator between passes, while no worker traces. Results must not depend on
+/// the range boundaries. Rethrows an exception of `part`.
 template <class Part>
 void in_parts(std::size_t count, std::size_t least, const Part& part) {
     const std::size_t parts = std::clamp<std::size_t>(count / least, 1, sweeping_threads());

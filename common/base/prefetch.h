@@ -3,10 +3,11 @@
 
 namespace treefarm {
 
-/// Fetches the line of cache that `address` lies in, for a read to come. The address may be any: none faults.
+/// Fetches the cache line of `address` ahead of a read. Any address is allowed: a prefetch never faults.
 inline void prefetch_line(const void* address) {
     __builtin_prefetch(address);
-    // GCC 12 takes a function that does nothing else for pure, and drops calls of it: this is an effect, of no cost.
+    // GCC 12 takes a function with nothing but a prefetch for pure and drops its calls; an empty asm is an effect
+    // without cost.
     asm volatile("");
 }
 

@@ -8,32 +8,32 @@
 
 namespace treefarm {
 
-/// The use of a random number. Each has a stream of its own, so switching an effect on never shifts another effect's
-/// numbers (docs/design/guiding.md, "random streams").
+/// Purpose of a random number. Each purpose has its own stream, so that switching an effect on never changes the
+/// numbers of another effect (docs/design/guiding.md, "random streams").
 enum class Stream : std::uint32_t {
-    camera,        ///< position on the pixel filter
-    lens,          ///< position on the lens
-    scatter,       ///< which density a direction is drawn from, and the direction
-    light,         ///< next event: which emitter, where on it
-    roulette,      ///< survival; whether next event samples an emitter at the vertex after, where it does not at each
-    record,        ///< spatial filter (three words) and stochastic rounding of what scattered directions teach the tree
-    light_record,  ///< as `record`, for next event's records
-    bootstrap,     ///< the interval of the estimated error; keyed by block and resample instead of pixel and sample
-    candidate,     ///< further directions to choose among, and which is taken; keyed by vertex and candidate
-    glass_split,   ///< whether the lesser way out of glass is followed, too
-    light_start,   ///< where a light path starts: which emitter, where on it
-    light_scatter,   ///< the direction in which light leaves an emitter (vertex 0) or a surface
+    camera,    ///< position in the pixel filter
+    lens,      ///< position on the lens
+    scatter,   ///< choice of the density that a direction is drawn from, and the direction
+    light,     ///< next event: choice of an emitter, and of a point on it
+    roulette,  ///< survival; whether the next vertex samples an emitter, if next event is used at only some vertices
+    record,    ///< spatial filter (three words) and stochastic rounding of a guiding record of a scattered direction
+    light_record,    ///< as `record`, for records of next event
+    bootstrap,       ///< interval of the estimated error; keyed by block and resample instead of pixel and sample
+    candidate,       ///< further candidate directions, and the choice among them; keyed by vertex and candidate
+    glass_split,     ///< whether the less likely branch at glass is followed, too
+    light_start,     ///< start of a light path: choice of an emitter, and of a point on it
+    light_scatter,   ///< direction in which a light path leaves an emitter (vertex 0) or a surface
     light_roulette,  ///< survival of a light path
     splat_round,     ///< stochastic rounding of a splat
-    lens_connect,    ///< the point of the lens that light paths are connected to
-    filter_pick,     ///< the pixel that a connection goes to
+    lens_connect,    ///< point of the lens to which light paths are connected
+    filter_pick,     ///< pixel that a connection is added to
 };
 
-/// Names one camera path: the same key gives the same path on any machine, thread or rank.
+/// Identity of a camera path: equal keys give equal paths on any machine, thread or rank.
 struct PathKey {
     std::uint64_t seed = 0;
     std::uint32_t pixel = 0;   ///< y * width + x
-    std::uint32_t sample = 0;  ///< counts over all passes
+    std::uint32_t sample = 0;  ///< index over all passes
 };
 
 using Draw = std::array<std::uint32_t, 4>;
@@ -48,12 +48,12 @@ using Draw = std::array<std::uint32_t, 4>;
     return {r[0], r[1], r[2], r[3]};
 }
 
-/// Uniform in [0, 1), never 1: the top 24 bits as a float.
+/// Uniform float in [0, 1), never 1: the top 24 bits.
 inline float to_unit(std::uint32_t bits) {
     return static_cast<float>(static_cast<std::int32_t>(bits >> 8)) * 0x1p-24f;  // signed: one instruction
 }
 
-/// More random bits from those at hand (the finaliser of MurmurHash3).
+/// Further random bits derived from `bits` and `salt` (the finaliser of MurmurHash3).
 inline std::uint32_t scrambled(std::uint32_t bits, std::uint32_t salt) {
     bits ^= salt * 0x9e3779b9u;
     bits = (bits ^ (bits >> 16)) * 0x85ebca6bu;

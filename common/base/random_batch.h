@@ -7,25 +7,26 @@
 
 namespace treefarm {
 
-/// How many paths draw together: a multiple of every vector register's lanes. The more, the rarer are steps in which
-/// few are left; with more than these large trees were slower (bench/log/speed.md, "what made paths faster").
+/// Number of paths that draw together: a multiple of the lanes of every vector register. Larger batches have fewer
+/// steps with few paths left; above this size, large trees became slower (bench/log/speed.md, "what made paths
+/// faster").
 inline constexpr std::uint32_t kDrawBatch = 128;
 
-/// Which paths draw, and at which of their vertices.
+/// Keys of the paths that draw, and the vertex of each.
 struct KeyBatch {
     alignas(64) std::array<std::uint32_t, kDrawBatch> pixel{}, sample{}, vertex{};
 };
 
-/// The draws of many paths, word by word, so that the compiler makes vector code of what is computed for all.
+/// Random numbers of a batch, word by word, so that the compiler vectorises loops over paths.
 struct DrawBatch {
     alignas(64) std::array<std::array<std::uint32_t, kDrawBatch>, 4> word;
 
     Draw operator[](std::size_t i) const { return {word[0][i], word[1][i], word[2][i], word[3][i]}; }
 };
 
-/// draw() for the first `count` keys (Philox 4x32, 7 rounds), `offset` vertices further: the same numbers at a fraction
-/// of the time. What stands beyond them is left undefined. Not inlined: it is long, called once for many, and whether
-/// it were would hang on what else its caller does.
+/// draw() for the first `count` keys (Philox 4x32, 7 rounds), with vertex numbers increased by `offset`: the same
+/// numbers in a fraction of the time. Entries from `count` on are undefined. Not inlined: it is long, is called once
+/// per batch, and must not depend on its caller's inlining budget.
 [[gnu::noinline]] inline void draw_batch(std::uint64_t seed, const KeyBatch& keys, std::uint32_t count,
                                          std::uint32_t offset, Stream stream, DrawBatch& out) {
     constexpr std::uint32_t kLanes = 8;

@@ -11,8 +11,8 @@ namespace treefarm {
 
 namespace {
 
-constexpr int kLongestBar = 30, kUsualBar = 10, kShortestBar = 4;  ///< without its ends
-constexpr int kBarFrame = 4;                                       ///< its ends and the space behind it
+constexpr int kLongestBar = 30, kUsualBar = 10, kShortestBar = 4;  ///< columns, without its ends
+constexpr int kBarFrame = 4;                                       ///< columns of its ends and of the space after it
 
 std::string bar(double fraction, int width) {
     const int filled = std::clamp(static_cast<int>(std::lround(fraction * width)), 0, width);

@@ -6,26 +6,26 @@
 
 namespace treefarm {
 
-/// How far something is, for a person.
+/// Progress of a task, for a person.
 struct Status {
-    double fraction = -1;             ///< done; negative: not known, so there is no bar
-    std::vector<std::string> fields;  ///< behind the bar, the most important first
-    std::size_t essential = 2;        ///< so many fields matter more than the bar
-    std::string line;                 ///< bar and fields as a whole line, where nothing can be drawn again
+    double fraction = -1;             ///< part done, 0 to 1; negative: unknown, no bar is shown
+    std::vector<std::string> fields;  ///< shown after the bar, the most important first
+    std::size_t essential = 2;        ///< number of leading fields that matter more than the bar
+    std::string line;                 ///< bar and fields as a sentence, for outputs that cannot redraw
 };
 
-/// Bar and fields in at most so many columns. As it gets narrow, the last fields go, then the bar, then essential
-/// fields, from the right.
+/// Bar and fields in at most `columns` columns. If they do not fit, the last fields are dropped first, then the bar,
+/// then essential fields from the right.
 std::string status_text(const Status& status, int columns);
 
-/// Fields with the space that stands between them; empty ones are left out.
+/// The fields that are not empty, joined with spaces.
 std::string join_fields(const std::vector<std::string>& fields);
 
-/// When to say again how far something is: after `first` seconds, then every `apart` seconds.
+/// Schedule of progress messages: after `first` seconds, then every `apart` seconds.
 class StatusPace {
   public:
     StatusPace(double first, double apart) : next_(first), apart_(apart) {}
-    /// Whether it is time to say so, `now` seconds after the start. Once it was, it is not again for a while.
+    /// Whether a message is due `now` seconds after the start; true once per interval.
     bool due(double now) {
         if (now < next_) return false;
         next_ = now + apart_;

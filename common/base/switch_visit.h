@@ -6,14 +6,14 @@
 
 namespace treefarm {
 
-/// Calls f with the alternative that a variant of at most 24 holds. Unlike std::visit it compiles to a switch whose
-/// cases can be inlined: for the per-vertex path. All cases return the same type.
+/// Calls f with the value of a variant of at most 24 alternatives. Compiles to a switch with inlinable cases, unlike
+/// std::visit: for code that runs per path vertex. All cases must return the same type.
 template <class Variant, class F>
 [[gnu::always_inline]] inline auto switch_visit(const Variant& variant, F&& f) {
     constexpr std::size_t kCount = std::variant_size_v<Variant>;
     static_assert(kCount <= 24, "add cases");
     using Result = decltype(f(*std::get_if<0>(&variant)));
-    // A case that there is no alternative for is that of the first: no such index comes.
+    // Cases beyond the last alternative repeat the first; no such index occurs.
     const auto of = [&](auto number) -> Result {
         constexpr std::size_t kAt = number < kCount ? number : 0;
         return f(*std::get_if<kAt>(&variant));

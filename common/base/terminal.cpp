@@ -14,7 +14,7 @@ struct Character {
     std::size_t bytes = 1;
 };
 
-/// The character at a place of a UTF-8 text; a byte that is none counts as one.
+/// The UTF-8 character at byte `at`; an invalid byte counts as one character.
 Character character_at(const std::string& text, std::size_t at) {
     const auto first = static_cast<unsigned char>(text[at]);
     const std::size_t bytes = first < 0xc0 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
@@ -28,7 +28,7 @@ Character character_at(const std::string& text, std::size_t at) {
     return {code, bytes};
 }
 
-/// Columns of a character by blocks, rather too wide than too narrow: the C library's answer would depend on the
+/// Columns of a character by Unicode block, rather too wide than too narrow. The C library's answer would depend on the
 /// locale.
 int columns_of(char32_t code) {
     const bool combining = (code >= 0x300 && code < 0x370) || (code >= 0x200b && code <= 0x200f);

@@ -5,19 +5,19 @@
 
 namespace treefarm {
 
-/// Abilities of whatever shows a stream. cli/launch_environment.cpp finds them out; the rest of the program is told.
+/// Abilities of an output stream, found out by cli/launch_environment.cpp.
 struct TerminalKind {
-    bool live = false;    ///< a terminal on which a line can be drawn again, by escape sequences
-    bool colour = false;  ///< words of a live terminal can have a colour
+    bool live = false;    ///< a terminal that can redraw a line, by escape sequences
+    bool colour = false;  ///< a live terminal that shows colours
 };
 
-/// Columns of the terminal behind this descriptor, as of now; 80 where nobody knows.
+/// Width in columns of the terminal behind this descriptor; 80 if unknown.
 int terminal_columns(int descriptor);
 
-/// Columns that a UTF-8 text takes: none for marks that combine, two for East Asian characters and the like.
+/// Columns that a UTF-8 text takes: combining marks take none, East Asian wide characters two.
 int text_columns(const std::string& text);
 
-/// The text's beginning, as far as it fits into so many columns.
+/// Longest beginning of the text that fits into `columns` columns.
 std::string cut_to_columns(const std::string& text, int columns);
 
 }  // namespace treefarm

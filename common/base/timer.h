@@ -5,7 +5,7 @@
 
 namespace treefarm {
 
-/// Wall-clock seconds since construction or the last restart. Clocks live outside the pure modules.
+/// Wall-clock seconds since construction or the last restart. Pure modules have no clock.
 class Timer {
   public:
     double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
@@ -16,10 +16,10 @@ class Timer {
     Clock::time_point start_ = Clock::now();
 };
 
-/// CPU seconds that this process (all threads) has used.
+/// CPU seconds used by all threads of this process.
 double process_cpu_seconds();
 
-/// CPU seconds that the calling thread has used.
+/// CPU seconds used by the calling thread.
 double thread_cpu_seconds();
 
 }  // namespace treefarm

@@ -11,7 +11,7 @@ Payload as_payload(Bytes bytes) {
     return std::make_shared<const Bytes>(std::move(bytes));
 }
 
-/// Calls `send` with each piece, in order; they name `chain` as the rest of their way.
+/// Calls `send` with each piece, in order; the pieces carry `chain` as the rest of their route.
 template <class Send>
 void send_pieces(const BlobName& name, std::span<const std::uint8_t> bytes, std::uint64_t offset,
                  std::vector<std::uint32_t> chain, std::size_t chunk_bytes, const Send& send) {
@@ -56,14 +56,14 @@ void ChainReceiver::pass_on(const Chunk& chunk) {
     const auto peers = static_cast<std::uint32_t>(channel_.peer_count());
     if (next == 0 || next >= peers || next == static_cast<std::uint32_t>(channel_.self()) ||
         chunk.chain.size() >= peers)
-        return;  // no chain that the coordinator made; who waits for the piece asks for it
+        return;  // a chain that the coordinator did not make; receivers that lack the piece ask for it
     Chunk onward = chunk;
     onward.chain.erase(onward.chain.begin());
     channel_.send(static_cast<int>(next), as_payload(encode(onward)));
 }
 
 bool ChainReceiver::has_capacity_for(const BlobName& name, std::size_t bytes) const {
-    // A piece may overtake the word that announces it. More than a few are somebody's invention.
+    // A piece may arrive before its announcement. More than a few such pieces are not from the coordinator.
     constexpr std::size_t kMostNames = 8, kMostBytes = std::size_t{16} << 20;
     std::size_t names = 1;
     for (const auto& [other, assembly] : assemblies_) {
@@ -94,16 +94,17 @@ std::optional<BlobName> ChainReceiver::take(const Chunk& chunk, double now, int 
         if (!assembly.asked) ask(name, assembly, now);
         return std::nullopt;
     }
-    if (chunk.offset < assembly.bytes.size()) return std::nullopt;  // a second copy
+    if (chunk.offset < assembly.bytes.size()) return std::nullopt;  // a duplicate
     assembly.asked = false;
-    assembly.last_heard = now;  // not for copies: those must not keep a blob waiting for the rest
+    assembly.last_heard = now;  // not for duplicates: those must not delay a request for the rest
     assembly.bytes.insert(assembly.bytes.end(), chunk.bytes.begin(), chunk.bytes.end());
     return assembly.complete() ? std::optional(name) : std::nullopt;
 }
 
 void ChainReceiver::expect(const BlobName& name, std::uint64_t total, double now) {
     Assembly& assembly = assemblies_[name];
-    if (assembly.total && *assembly.total != total) assembly = {};  // what came before the announcement is not it
+    if (assembly.total && *assembly.total != total)
+        assembly = {};  // pieces before the announcement were of another blob
     if (!assembly.total) assembly.last_heard = now;
     assembly.total = total;
     assembly.announced = true;

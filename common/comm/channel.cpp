@@ -13,7 +13,7 @@ std::vector<int> Channel::peers() const {
 }
 
 const JoinTicket& Channel::take_guests(const GuestOptions&) {
-    throw InputError(Location{"farm.join", 0, 0}, "nobody can join this process", "leave farm.join away");
+    throw InputError(Location{"farm.join", 0, 0}, "workers cannot join this process", "leave farm.join away");
 }
 
 }  // namespace treefarm

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kLengthBytes = 4;
 constexpr std::uint32_t kMoreBit = std::uint32_t{1} << 31;
 
-/// Room that is made before anything has arrived.
+/// Bytes reserved before any have arrived.
 constexpr std::size_t kFirstRoom = std::size_t{1} << 20;
 
 static_assert(kFrameHeadBytes == kLengthBytes + crypto_onetimeauth_poly1305_BYTES);

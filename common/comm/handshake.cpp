@@ -27,7 +27,7 @@ bool equal(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
     return a.size() == b.size() && sodium_memcmp(a.data(), b.data(), a.size()) == 0;
 }
 
-/// The guest's words and the coordinator's up to its proof.
+/// The guest's hello followed by the coordinator's answer up to its proof.
 Bytes both(std::span<const std::uint8_t> hello, std::span<const std::uint8_t> answer) {
     Bytes bytes(hello.begin(), hello.end());
     bytes.insert(bytes.end(), answer.begin(), answer.end());
@@ -44,22 +44,22 @@ RefusalText refusal_text(JoinRefusal refusal) {
     switch (refusal) {
         case JoinRefusal::version:
         case JoinRefusal::protocol:
-            return {"the render is by another version of treefarm, which speaks otherwise",
+            return {"the render runs another version of treefarm, with another handshake",
                     "start the same build everywhere; treefarm --version tells them apart"};
         case JoinRefusal::run:
-            return {"another run answers there: the one of this ticket is over, or was started again",
-                    "take the file join that lies in the run directory now"};
+            return {"another run uses this address: the one of this ticket is over, or was started again",
+                    "take the file join from the run directory again"};
         case JoinRefusal::secret:
             return {"the secret of this ticket is not the run's", "take the file join of its run directory"};
         case JoinRefusal::build:
-            return {"the render is by another build of treefarm, or its processor calculates otherwise",
+            return {"the render runs another build of treefarm, or its processor rounds differently",
                     "start the same build everywhere; treefarm --version tells them apart"};
         case JoinRefusal::crowded:
-            return {"too many are joining at this moment", "try again in some seconds"};
+            return {"too many workers are joining at this moment", "try again in some seconds"};
         case JoinRefusal::none:
             break;
     }
-    return {"the coordinator turned it away", "treefarm --version tells builds apart"};
+    return {"the coordinator refused it", "treefarm --version tells builds apart"};
 }
 
 Bytes refusal_answer(JoinRefusal refusal) {
@@ -71,7 +71,7 @@ Bytes refusal_answer(JoinRefusal refusal) {
 
 void ListenerHandshake::take(std::span<const std::uint8_t> bytes) {
     bytes_ += bytes.size();
-    if (bytes_ > kMostUnprovenBytes) throw FormatError("it said much and proved nothing");
+    if (bytes_ > kMostUnprovenBytes) throw FormatError("it sent too many bytes without a proof");
     if (!reader_) {
         const std::size_t count = std::min(bytes.size(), kHelloBytes - got_.size());
         got_.insert(got_.end(), bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(count));
@@ -82,11 +82,11 @@ void ListenerHandshake::take(std::span<const std::uint8_t> bytes) {
     reader_->feed(bytes);
 }
 
-/// Reads as far as is there, so that a stranger is known by its first bytes.
+/// Reads as many fields as have arrived, so that a foreign protocol is recognised by its first bytes.
 void ListenerHandshake::read_hello() {
     if (got_.size() < kBeginBytes) return;
     ByteReader reader(got_);
-    if (reader.get<std::uint32_t>() != kMagic) throw FormatError("it is no treefarm");
+    if (reader.get<std::uint32_t>() != kMagic) throw FormatError("it is not treefarm");
     if (reader.get<std::uint32_t>() != kVersion) turn_away(JoinRefusal::version);
     if (got_.size() < kHelloBytes) return;
     if (reader.get<std::uint32_t>() != kProtocolVersion) turn_away(JoinRefusal::protocol);
@@ -138,16 +138,16 @@ void GuestHandshake::take(std::span<const std::uint8_t> bytes) {
         bytes = bytes.subspan(count);
         if (got_.size() < kRefusalBytes) return;
         ByteReader reader(got_);
-        if (reader.get<std::uint32_t>() != kMagic) throw FormatError("what answers there is no treefarm");
+        if (reader.get<std::uint32_t>() != kMagic) throw FormatError("the program at this address is not treefarm");
         const auto answer = reader.get<std::uint8_t>();
         if (answer > static_cast<std::uint8_t>(kLastJoinRefusal))
-            throw FormatError("what answers there is another treefarm");
+            throw FormatError("the program at this address is another version of treefarm");
         refusal_ = static_cast<JoinRefusal>(answer);
         if (refusal_ != JoinRefusal::none || got_.size() < kAnswerBytes) return;
         reader.get_bytes(sizeof(JoinKey));
         const Bytes words = both(hello_, std::span(got_).first(kAnswerBytes - sizeof(JoinKey)));
         if (!equal(reader.get_bytes(sizeof(JoinKey)), keyed(secret_, "coordinator", words)))
-            throw FormatError("what answers there does not have the run's secret");
+            throw FormatError("the program at this address does not know the run's secret");
         keys_ = session_keys(secret_, words);
         reader_.emplace(keys_.to_guest, kMostFrameBytes);
     }

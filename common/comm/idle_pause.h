@@ -7,15 +7,15 @@
 
 namespace treefarm {
 
-/// How long to give up the processor when nothing arrives: first not at all, then sleeps that double. Keeps an idle
-/// coordinator under one hundredth of a core without making a busy one late. It never yields: where threads outnumber
-/// processors that may last a time slice of 4 ms, and a short sleep does not.
+/// Pause of a polling loop when nothing arrives: at first none, then sleeps of doubling length. An idle coordinator
+/// stays below one hundredth of a core, and a busy one is not delayed. It does not yield: with more threads than
+/// processors that can last a time slice of 4 ms; a short sleep does not.
 class IdlePause {
   public:
-    /// Something happened: be quick again.
+    /// Reports activity: the next pauses are short again.
     void reset() { quiet_ = 0; }
 
-    /// Sleeps at most `seconds`; shorter while a transfer is `moving`, since it only moves when it is looked at.
+    /// Sleeps at most `seconds`; less while a transfer is `moving`, since it advances only when polled.
     void rest(double seconds, bool moving) {
         if (++quiet_ <= kLooks) return;
         const double longest = std::min(seconds, moving ? kMovingSeconds : kLongestSeconds);
@@ -25,7 +25,7 @@ class IdlePause {
     }
 
   private:
-    static constexpr int kLooks = 8;  ///< in a row, some microseconds
+    static constexpr int kLooks = 8;  ///< polls without a pause, some microseconds in all
     static constexpr double kShortestSeconds = 20e-6;
     static constexpr double kMovingSeconds = 200e-6;
     static constexpr double kLongestSeconds = 2e-3;

@@ -8,18 +8,18 @@
 
 namespace treefarm {
 
-/// 256 bits that nobody can guess: a secret, a nonce, or the key of one direction of a session.
+/// Random 256 bits: a secret, a nonce, or the key of one direction of a session.
 using JoinKey = std::array<std::uint8_t, 32>;
 
-/// Name of one coordinator that takes guests in.
+/// Random identity of a coordinator that accepts guests.
 using JoinRun = std::array<std::uint8_t, 16>;
 
-/// A worker's way into a render that did not start it, as the file `join` of its run directory says.
+/// Data with which a worker joins a running render, from the file `join` of its run directory.
 struct JoinTicket {
-    JoinRun run{};        ///< random: who answers there may be the coordinator of another run
-    std::string address;  ///< a name or a number, IPv4 or IPv6
+    JoinRun run{};        ///< random: the address may be reused by the coordinator of another run
+    std::string address;  ///< a host name or a number, IPv4 or IPv6
     std::uint16_t port = 0;
-    JoinKey secret{};  ///< whoever has it may join
+    JoinKey secret{};  ///< authorises to join
 
     bool operator==(const JoinTicket&) const = default;
 };
@@ -31,13 +31,13 @@ JoinRun draw_join_run();
 /// Text of a ticket: lines "name value", the secret in base64.
 std::string ticket_text(const JoinTicket& ticket);
 
-/// The ticket that a text is; `file` is named where it is none. Throws InputError.
+/// Ticket from its text; `file`: for messages. Throws InputError if the text is malformed.
 JoinTicket parse_ticket(const std::string& text, const std::string& file);
 
-/// Writes the file whole or not at all, readable by its owner alone. Throws RunError.
+/// Writes the file atomically, readable by its owner alone. Throws RunError.
 void write_ticket(const std::filesystem::path& path, const JoinTicket& ticket);
 
-/// Reads a ticket from a file that this user alone can read. Throws InputError.
+/// Reads a ticket from a file that only this user can read. Throws InputError.
 JoinTicket read_ticket(const std::filesystem::path& path);
 
 }  // namespace treefarm

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A guest's end: connects, proves itself, and is a channel from then on.
+// The guest's end: connects, authenticates itself, and is a channel from then on.
 #include <poll.h>
 #include <sys/socket.h>
 
@@ -18,7 +18,7 @@ namespace {
 constexpr double kConnectSeconds = 10, kAnswerSeconds = 10;
 constexpr std::size_t kScratchBytes = std::size_t{256} << 10;
 
-/// A worker's numbers on its own channel: it knows nobody but the coordinator.
+/// Peer numbers on a guest's own channel, which has only the coordinator.
 constexpr int kSelf = 1, kPeers = 2;
 
 bool wait_for(int fd, short events, double seconds) {
@@ -95,20 +95,22 @@ std::unique_ptr<Channel> join_run(const JoinTicket& ticket, std::uint64_t finger
     GuestHandshake handshake(ticket, fingerprint, draw_join_key());
     const Bytes& hello = handshake.hello();
     if (::send(socket.fd(), hello.data(), hello.size(), MSG_NOSIGNAL) != static_cast<ssize_t>(hello.size()))
-        refuse(ticket, "the connection takes nothing", "try again");
+        refuse(ticket, "nothing can be sent over the connection", "try again");
     std::uint8_t scratch[1024];
     const Timer timer;
     while (!handshake.is_welcome()) {
         if (!wait_for(socket.fd(), POLLIN, kAnswerSeconds) || timer.seconds() > kAnswerSeconds)
-            refuse(ticket, "what answers there says nothing", "take the file join that lies in the run directory now");
+            refuse(ticket, "the program at this address does not answer",
+                   "take the file join from the run directory again");
         const ssize_t count = ::recv(socket.fd(), scratch, sizeof scratch, MSG_DONTWAIT);
         if (count < 0 && (errno == EAGAIN || errno == EINTR)) continue;
         if (count <= 0)
-            refuse(ticket, "what answers there hung up", "take the file join that lies in the run directory now");
+            refuse(ticket, "the program at this address closed the connection",
+                   "take the file join from the run directory again");
         try {
             handshake.take(std::span(scratch).first(static_cast<std::size_t>(count)));
         } catch (const FormatError& error) {
-            refuse(ticket, error.what(), "take the file join that lies in the run directory now");
+            refuse(ticket, error.what(), "take the file join from the run directory again");
         }
         if (handshake.refusal() != JoinRefusal::none) {
             const RefusalText text = refusal_text(handshake.refusal());

@@ -9,7 +9,7 @@
 
 namespace treefarm {
 
-/// BLAKE2b-256 under a secret, of a purpose and bytes: keys and proofs for one purpose are of no use for another.
+/// BLAKE2b-256 under a secret over a purpose and bytes. Keys and proofs for one purpose are useless for another.
 JoinKey keyed_hash(const JoinKey& secret, const std::string& purpose, std::span<const std::uint8_t> bytes);
 
 }  // namespace treefarm

@@ -12,7 +12,7 @@ namespace treefarm {
 
 namespace {
 
-// From here on only what may be called between fork and exit in a process of several threads.
+// From here on only async-signal-safe calls: this is a forked child of a process with several threads.
 
 bool is_launcher(pid_t process) {
     char path[64], name[32] = "";

@@ -5,10 +5,10 @@
 
 namespace treefarm {
 
-/// Leaves a process behind that ends the mpirun which started this one, if it still runs after `patience` seconds: a
-/// rank that is killed at the wrong moment of MPI_Init can wedge it (Open MPI 4.1), and it waits for one that is
-/// stopped for ever. `last_words` go to mpirun's own standard error then, since it may forward nothing any more. Does
-/// nothing where the parent is no mpirun. Safe while other threads run.
+/// Starts a background process that ends the mpirun of this process if it still runs after `patience` seconds. A rank
+/// killed at the wrong moment of MPI_Init can block mpirun (Open MPI 4.1), and mpirun waits forever for a stopped rank.
+/// `last_words` are then written to mpirun's standard error, since it may no longer forward output. Does nothing if the
+/// parent is not mpirun. Safe while other threads run.
 void end_launcher_that_stays(unsigned patience, const std::string& last_words);
 
 }  // namespace treefarm

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/comm/mpi_channel.h"
 
-#define OMPI_SKIP_MPICXX  // the C++ bindings of MPI 2 are gone from the standard
+#define OMPI_SKIP_MPICXX  // the C++ bindings of MPI 2 were removed from the standard
 #include <mpi.h>
 #include <unistd.h>
 
@@ -24,22 +24,22 @@ namespace treefarm {
 
 namespace {
 
-/// A message travels as parts of at most this many bytes: MPI counts in int, and a short transfer is a short wait.
+/// Greatest part of a message, in bytes: MPI counts in int, and short transfers mean short waits.
 constexpr std::size_t kPartBytes = std::size_t{64} << 20;
 
-/// Seconds to wait for the rest to drain when somebody was lost: what was sent to it never does.
+/// Seconds to wait for sends to finish if a peer was lost; sends to the lost peer never do.
 constexpr double kDisorderlyDrainSeconds = 1.0;
 
-/// How long mpirun may take to notice that its ranks have left: at a start that failed; at the end, where other ranks
-/// finish what they are at.
+/// Seconds that mpirun may take to notice that its ranks have left: after a failed start; and at the end, where other
+/// ranks finish their work.
 constexpr unsigned kLauncherPatienceAtStart = 4, kLauncherPatienceAtEnd = 10;
 constexpr char kLauncherStayed[] =
     "treefarm: rank 0 is done, but mpirun goes on waiting for a rank that died or stands still: it is ended\n";
 
-/// The tags on the farm's communicator.
+/// Tags on the farm's communicator.
 enum Tag : int {
     tag_last = 1,  ///< the last or only part of a message
-    tag_more = 2,  ///< a part that others follow
+    tag_more = 2,  ///< a part that is followed by others
 };
 
 void check(int code, const char* call, int peer) {
@@ -105,7 +105,7 @@ class MpiChannel final : public Channel {
     std::uint64_t bytes_received() const override { return received_; }
 
   private:
-    /// A buffer belongs to its request until MPI says that it is done, if ever: those of a dead peer stay to the end.
+    /// A buffer belongs to its request until MPI reports completion; those of a dead peer stay until the end.
     struct Outgoing {
         Payload payload;
         MPI_Request request;
@@ -115,13 +115,13 @@ class MpiChannel final : public Channel {
         Bytes bytes;
         MPI_Request request = MPI_REQUEST_NULL;
         bool last = true;
-        bool cut = false;  ///< of a message that is too long: received into no room at all
+        bool cut = false;  ///< part of a message that is too long: received into an empty buffer
     };
     struct Inbox {
-        std::list<Part> parts;  ///< in the order in which they were sent; requests must not move
+        std::list<Part> parts;  ///< in the order of sending; requests must not move
         Bytes assembled;
-        std::size_t coming = 0;  ///< bytes of the message whose parts are being received
-        bool too_long = false;   ///< the message that is being assembled
+        std::size_t coming = 0;  ///< bytes of the message being received
+        bool too_long = false;   ///< the message being assembled
     };
 
     void sweep_outgoing() {
@@ -162,14 +162,14 @@ class MpiChannel final : public Channel {
         return done != 0 || part.request == MPI_REQUEST_NULL;
     }
 
-    /// Parts of a peer may finish out of order; they are handed on in order.
+    /// Parts of a peer may finish out of order; they are delivered in order.
     std::optional<Received> progress(int peer, Inbox& inbox) {
         while (!inbox.parts.empty() && test(inbox.parts.front(), peer)) {
             Part part = std::move(inbox.parts.front());
             inbox.parts.pop_front();
             --receiving_;
             inbox.too_long |= part.cut;
-            if (inbox.too_long) {  // whoever takes it finds no message in it
+            if (inbox.too_long) {  // the receiver gets an empty message
                 inbox.assembled = {};
                 if (part.last) inbox.too_long = false;
             } else if (inbox.assembled.empty())
@@ -190,7 +190,7 @@ class MpiChannel final : public Channel {
     std::uint64_t sent_ = 0, received_ = 0;
 };
 
-/// Collective: only at the start, while everybody is alive.
+/// Number of workers on this host. Collective, so for the start only, while all processes live.
 int count_workers_on_host(MPI_Comm communicator) {
     int rank = 0, workers = 0;
     check(MPI_Comm_rank(communicator, &rank), "MPI_Comm_rank", -1);
@@ -203,7 +203,7 @@ int count_workers_on_host(MPI_Comm communicator) {
     return workers;
 }
 
-/// Nonces of all processes, where each has the secret; else none. Collective: only at the start.
+/// Nonces of all processes if each has the secret; else none. Collective, so for the start only.
 std::vector<JoinKey> exchange_nonces(MPI_Comm communicator, int size, bool has_secret) {
     const int mine = has_secret;
     int all = 0;
@@ -216,7 +216,7 @@ std::vector<JoinKey> exchange_nonces(MPI_Comm communicator, int size, bool has_s
     return nonces;
 }
 
-/// Leaves the process after some last act, unless it is told in time that all went well.
+/// Watchdog that ends the process after a last action unless it is cancelled in time.
 class Deadline {
   public:
     Deadline(double seconds, int exit_code, std::function<void()> last_act)
@@ -297,10 +297,10 @@ Channel& MpiSession::channel() {
 
 void MpiSession::finish(bool orderly, int exit_code, double patience) {
     const Timer timer;
-    Channel& channel = *impl_->channel;  // nobody reads what still comes
+    Channel& channel = *impl_->channel;  // messages that still arrive are dropped
     const double drain_seconds = orderly ? patience : std::min(patience, kDisorderlyDrainSeconds);
     while (!channel.drained() && timer.seconds() < drain_seconds) {
-        channel.poll();  // what still arrives is of no use any more
+        channel.poll();  // messages that still arrive are dropped
         channel.rest(1e-3);
     }
     const auto see_to_launcher = [&] {

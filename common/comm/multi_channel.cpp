@@ -7,10 +7,10 @@ namespace treefarm {
 
 namespace {
 
-/// How long guests have to take their leave.
+/// Seconds that guests have to leave.
 constexpr double kCloseSeconds = 2.0;
 
-/// Longest rest while something is on its way to a guest: it moves only when it is looked at.
+/// Longest pause during a transfer to a guest, which advances only when polled.
 constexpr double kMovingSeconds = 200e-6;
 
 }  // namespace

@@ -8,13 +8,13 @@
 
 namespace treefarm {
 
-/// The coordinator's channel where workers may join: the peers of another channel under their own numbers, and guests
-/// under the numbers behind. Costs nothing until guests are taken.
+/// The coordinator's channel if workers may join: the peers of another channel under their own numbers, and guests
+/// under the numbers after them. Costs nothing until guests are accepted.
 class MultiChannel final : public Channel {
   public:
-    /// `base` outlives this, and its number of peers stays.
+    /// `base` must outlive this, with a constant number of peers.
     explicit MultiChannel(Channel& base) : base_(base) {}
-    /// Hangs up on guests that have not left.
+    /// Closes the connections of guests that have not left.
     ~MultiChannel() override;
 
     int self() const override { return base_.self(); }
@@ -23,7 +23,7 @@ class MultiChannel final : public Channel {
     bool is_open(int peer) const override { return is_guest(peer) ? guests_->is_open(peer) : base_.is_open(peer); }
     bool is_guest(int peer) const override { return guests_ && guests_->is_guest(peer); }
     std::size_t unsent(int peer) const override { return is_guest(peer) ? guests_->unsent(peer) : 0; }
-    /// Listens from the first call on; later ones return the same ticket.
+    /// Starts listening at the first call; later calls return the same ticket.
     const JoinTicket& take_guests(const GuestOptions& options) override;
     bool takes_guests() const override { return guests_ != nullptr; }
     void send(int peer, Payload payload) override;
@@ -33,13 +33,13 @@ class MultiChannel final : public Channel {
     std::uint64_t bytes_sent() const override;
     std::uint64_t bytes_received() const override;
 
-    /// Lets guests go, once they have been told to leave: sends what is queued, and waits a moment for them to close.
+    /// Closes connections after guests were told to leave: sends what is queued, and waits briefly for them to close.
     void close();
 
   private:
     Channel& base_;
     std::unique_ptr<TcpChannel> guests_;
-    bool guests_first_ = false;  ///< turns with each poll: nobody is heard at the cost of others
+    bool guests_first_ = false;  ///< alternates with each poll, so that neither side starves the other
 };
 
 }  // namespace treefarm

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A name that is_temporary_of() knows: what a killed run leaves is removed by the next.
+/// A name that is_temporary_of() recognises, so that the next run removes the file of a killed one.
 fs::path temporary_of(const fs::path& path) {
     if (sodium_init() < 0) throw RunError("libsodium finds no source of random numbers");
     unsigned char random[6];
@@ -30,7 +30,7 @@ fs::path temporary_of(const fs::path& path) {
     return temporary;
 }
 
-/// Writes a new file. The umask may have taken from the owner, and some file systems give everybody everything.
+/// Writes a new file. The umask may have denied the owner access, and some file systems grant everyone access.
 bool write_new(const fs::path& path, const std::string& text) {
     const Descriptor file = Descriptor::open(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, 0600);
     struct stat status {};
@@ -42,7 +42,7 @@ bool write_new(const fs::path& path, const std::string& text) {
     return (status.st_mode & 077) == 0;
 }
 
-/// A secret is one only where nobody else could read it.
+/// Throws InputError if another user could have read or made the file.
 void check_owner(const fs::path& path, const struct stat& status, const std::string& cure) {
     if (!S_ISREG(status.st_mode)) throw InputError(Location{path.string(), 0, 0}, "is no file", cure);
     if (status.st_uid != ::geteuid())

@@ -7,11 +7,11 @@
 
 namespace treefarm {
 
-/// Writes a file that holds a secret, whole or not at all, readable by its owner alone. Throws RunError.
+/// Writes a file with a secret atomically, readable by its owner alone. Throws RunError.
 void write_private_file(const std::filesystem::path& path, const std::string& text);
 
-/// Text of a file that this user alone can read, `most_bytes` of it. Throws InputError where it cannot be read, with
-/// `cure`; and where another user could have read or made it.
+/// Text of a file that only this user can read, at most `most_bytes`. Throws InputError if it cannot be read, with
+/// `cure`, or if another user could have read or made it.
 std::string read_private_file(const std::filesystem::path& path, std::size_t most_bytes, const std::string& cure);
 
 }  // namespace treefarm

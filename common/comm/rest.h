@@ -8,8 +8,8 @@
 
 namespace treefarm {
 
-/// Between two looks at messages. `calm`: nothing need be answered soon, so that looks are rare, since each takes a
-/// moment from a thread that traces.
+/// Pause between two polls for messages. `calm`: no answer is urgent, so polls may be rare; each takes time from a
+/// tracing thread.
 inline void rest(Channel& channel, bool calm = false) {
     constexpr std::chrono::milliseconds kCalm{8};
     constexpr double kShortSeconds = 2e-3;

@@ -7,13 +7,13 @@
 
 namespace treefarm {
 
-/// Name of the file that holds the secret of an attempt's processes, beside their sign of life.
+/// Name of the file with the secret of an attempt's processes, beside its sign of life.
 inline constexpr const char* kRunKeyName = "key";
 
-/// Draws a secret and writes it for this user's processes on all hosts that see the file. Throws RunError.
+/// Draws a secret and writes it to a file for this user's processes on all hosts that share it. Throws RunError.
 void write_run_key(const std::filesystem::path& path);
 
-/// The secret that a file holds. Throws InputError where there is none that this user alone could read.
+/// The secret in a file. Throws InputError if it is missing or not readable by this user alone.
 JoinKey read_run_key(const std::filesystem::path& path);
 
 }  // namespace treefarm

@@ -53,7 +53,7 @@ std::optional<Received> SealedChannel::poll() {
     return std::nullopt;
 }
 
-/// Whether the bytes are a head; what it says is checked with the message.
+/// Whether the bytes have the form of a head; its content is checked with the message.
 bool SealedChannel::take_head(Peer& peer, const Bytes& bytes) {
     if (bytes.size() != kFrameHeadBytes) return false;
     std::copy(bytes.begin(), bytes.end(), peer.head.emplace().begin());

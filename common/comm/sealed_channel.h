@@ -10,14 +10,14 @@
 
 namespace treefarm {
 
-/// A channel between peers that share a secret, over another that anybody may reach: each message follows its frame
-/// head (frames.h), under a key of its own for each pair and direction. A peer of which one message was changed,
-/// repeated, left out or made up is heard no more: it sends one message in which there is nothing, and its own silence
-/// afterwards is that of a lost one.
+/// Authenticated channel between peers that share a secret, over a channel that is open to others. Each message follows
+/// its frame head (frames.h), under a separate key for each pair and direction. After a message that was changed,
+/// repeated, omitted or forged, a peer is ignored: it delivers one empty message and is silent from then on, like a
+/// lost peer.
 class SealedChannel final : public Channel {
   public:
-    /// `base` outlives this. `nonces`: of all peers, by number, drawn for each session anew; whoever changes them on
-    /// their way gets one whose messages all fail.
+    /// `base` must outlive this. `nonces`: of all peers, by number, drawn anew for each session; if they are changed in
+    /// transit, all messages fail.
     SealedChannel(Channel& base, const JoinKey& secret, std::span<const JoinKey> nonces);
 
     int self() const override { return base_.self(); }
@@ -37,7 +37,7 @@ class SealedChannel final : public Channel {
     };
     struct Peer {
         Direction to, from;
-        std::optional<FrameHead> head;  ///< of the message that comes next
+        std::optional<FrameHead> head;  ///< of the message to come
         bool broken = false;
     };
 

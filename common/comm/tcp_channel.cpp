@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kScratchBytes = std::size_t{256} << 10;
 
-/// Lines about strangers; who knocks for ever fills no log.
+/// Limit of warnings about unauthenticated connections, so that they cannot fill the log.
 constexpr int kMostWarnings = 20;
 
 TcpChannel::Clock or_real(TcpChannel::Clock clock) {
@@ -32,7 +32,7 @@ bool is_everywhere(const std::string& address) {
     return address == "0.0.0.0" || address == "::";
 }
 
-/// Sends a few bytes, which a fresh socket takes at once.
+/// Sends a few bytes, which a fresh socket accepts at once.
 bool send_at_once(const Socket& socket, const Bytes& bytes) {
     return bytes.empty() || ::send(socket.fd(), bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT) ==
                                 static_cast<ssize_t>(bytes.size());
@@ -106,7 +106,7 @@ void TcpChannel::rest(double seconds) {
     wait(seconds, true);
 }
 
-/// Waits until something can be moved, at most so long; false if nothing can.
+/// Waits until a transfer can advance, at most `seconds`; false if none can.
 bool TcpChannel::wait(double seconds, bool reading) const {
     std::vector<pollfd> ready;
     ready.push_back({listener_.socket.fd(), POLLIN, 0});
@@ -121,7 +121,7 @@ bool TcpChannel::wait(double seconds, bool reading) const {
     return ::ppoll(ready.data(), ready.size(), &time, nullptr) > 0;
 }
 
-/// Does what can be done without waiting.
+/// Advances all transfers that can proceed without waiting.
 void TcpChannel::move(bool reading) {
     const bool ready = wait(0, reading);
     if (ready) {
@@ -154,18 +154,19 @@ void TcpChannel::adopt(Socket socket, const std::string& from) {
     set_up(socket);
     if (visitors_.size() >= limits_.most_unproven) {
         send_at_once(socket, refusal_answer(JoinRefusal::crowded));
-        (void)::recv(socket.fd(), scratch_.data(), scratch_.size(), MSG_DONTWAIT);  // unread words destroy the answer
+        (void)::recv(socket.fd(), scratch_.data(), scratch_.size(),
+                     MSG_DONTWAIT);  // unread data would destroy the answer
         warn("a connection from " + from + " was closed: " + std::to_string(limits_.most_unproven) +
-             " others have proved nothing yet");
+             " other connections are not authenticated yet");
         return;
     }
     visitors_.push_back({std::move(socket), from, clock_(), {ticket_, options_.fingerprint, draw_join_key()}});
 }
 
-/// Takes what a visitor says; what is wrong with it.
+/// Handles data from an unauthenticated connection. Returns the fault, if any.
 std::string TcpChannel::hear(Visitor& visitor) {
     const ssize_t count = ::recv(visitor.socket.fd(), scratch_.data(), kMostUnprovenBytes, MSG_DONTWAIT);
-    if (count == 0) return "it closed it itself";
+    if (count == 0) return "it closed the connection";
     if (count < 0) return errno == EAGAIN || errno == EINTR ? "" : std::strerror(errno);
     try {
         visitor.handshake.take(std::span(scratch_).first(static_cast<std::size_t>(count)));
@@ -175,10 +176,11 @@ std::string TcpChannel::hear(Visitor& visitor) {
     return "";
 }
 
-/// Sees to a visitor, who may have said something if anybody is `ready`; false: it is none any more.
+/// Handles an unauthenticated connection, which may have data if `ready`; false: it is to be removed.
 bool TcpChannel::see_to(Visitor& visitor, bool ready) {
     std::string why = ready ? hear(visitor) : "";
-    if (!send_at_once(visitor.socket, visitor.handshake.take_answer()) && why.empty()) why = "it takes no answer";
+    if (!send_at_once(visitor.socket, visitor.handshake.take_answer()) && why.empty())
+        why = "the answer could not be sent";
     if (why.empty() && visitor.handshake.is_admitted()) {
         links_.emplace(next_peer_++, Guest{{std::move(visitor.socket), visitor.handshake.sending_key(),
                                             visitor.handshake.take_reader()},
@@ -186,13 +188,14 @@ bool TcpChannel::see_to(Visitor& visitor, bool ready) {
                                            {}});
         return false;
     }
-    if (why.empty() && clock_() - visitor.since > limits_.unproven_seconds) why = "it said too little for too long";
+    if (why.empty() && clock_() - visitor.since > limits_.unproven_seconds)
+        why = "it did not authenticate itself in time";
     if (why.empty()) return true;
     warn("a connection from " + visitor.from + " was closed: " + why);
     return false;
 }
 
-/// A guest that is behind, and gets no farther, costs memory.
+/// Closes the connection of a guest that does not receive, since its queue costs memory.
 void TcpChannel::give_up_slow(Guest& guest) {
     const double now = clock_();
     const std::size_t unsent = guest.link.unsent();
@@ -201,14 +204,14 @@ void TcpChannel::give_up_slow(Guest& guest) {
     else if (!guest.behind)
         guest.behind = {unsent, now};
     else if (now - guest.behind->since >= limits_.unsent_seconds) {
-        if (unsent >= guest.behind->bytes) guest.link.close("it takes in less than it is sent");
+        if (unsent >= guest.behind->bytes) guest.link.close("it receives more slowly than data are sent to it");
         guest.behind = {unsent, now};
     }
 }
 
 void TcpChannel::warn(const std::string& text) {
     if (++warnings_ > kMostWarnings || !options_.warning) return;
-    options_.warning(text + (warnings_ == kMostWarnings ? "; further ones are not told" : ""));
+    options_.warning(text + (warnings_ == kMostWarnings ? "; further ones are not reported" : ""));
 }
 
 void TcpChannel::close(double seconds) {
@@ -218,7 +221,7 @@ void TcpChannel::close(double seconds) {
     for (auto& [peer, guest] : links_)
         guest.link.end_sending();
     while (!links_.empty() && clock_() < end) {
-        while (poll()) {  // of no use any more
+        while (poll()) {  // no longer needed
         }
         wait(0.01, true);
     }

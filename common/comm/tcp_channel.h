@@ -14,33 +14,33 @@
 
 namespace treefarm {
 
-/// How guests are taken in.
+/// Settings of accepting guests.
 struct GuestOptions {
-    std::string address = "127.0.0.1";         ///< of this machine, to listen at
-    std::uint16_t port = 0;                    ///< 0: the kernel chooses one
-    std::uint64_t fingerprint = 0;             ///< that guests must have
-    std::function<void(std::string)> warning;  ///< one line about who was turned away
+    std::string address = "127.0.0.1";         ///< address of this machine at which to listen
+    std::uint16_t port = 0;                    ///< 0: chosen by the kernel
+    std::uint64_t fingerprint = 0;             ///< required of guests
+    std::function<void(std::string)> warning;  ///< receives one line about a refused connection
 };
 
-/// Limits of what connections may cost.
+/// Limits of connections.
 struct GuestLimits {
-    std::size_t most_unproven = 64;                    ///< connections that have not proved to have the secret
-    double unproven_seconds = 5;                       ///< so long may each be so
-    std::size_t most_unsent = std::size_t{256} << 20;  ///< bytes that may wait for a guest ...
-    double unsent_seconds = 10;                        ///< ... if they do not become fewer in so long
+    std::size_t most_unproven = 64;                    ///< unauthenticated connections at a time
+    double unproven_seconds = 5;                       ///< seconds that a connection may stay unauthenticated
+    std::size_t most_unsent = std::size_t{256} << 20;  ///< queued bytes beyond which a guest is closed ...
+    double unsent_seconds = 10;                        ///< ... unless they decrease within this time
 };
 
-/// The coordinator's connections to guests. Peers are those that have proved to have the secret; they get numbers from
-/// `first_peer` on, and each is closed and forgotten at the first frame that is not its own. No call waits for anybody.
+/// The coordinator's connections to guests. A connection becomes a peer when it has proved to know the secret; numbers
+/// begin at `first_peer`. A guest is closed and removed at the first invalid frame. No call waits.
 class TcpChannel final : public Channel {
   public:
     using Clock = std::function<double()>;  ///< seconds
 
-    /// Listens. Throws InputError.
+    /// Starts to listen. Throws InputError.
     TcpChannel(const GuestOptions& options, int first_peer, const GuestLimits& limits = {}, Clock clock = {});
     ~TcpChannel() override;
 
-    /// Way in; its address is one that others can reach where `options.address` means all of this machine's.
+    /// Ticket for guests. Its address can be reached from other hosts if `options.address` means all of this machine's.
     const JoinTicket& ticket() const { return ticket_; }
 
     int self() const override { return 0; }
@@ -53,7 +53,7 @@ class TcpChannel final : public Channel {
     bool takes_guests() const override { return true; }
     void send(int peer, Payload payload) override;
     std::optional<Received> poll() override;
-    /// Sends what it can, and lets in who knocks.
+    /// Sends queued data and accepts new connections. True if all data have left.
     bool drained() override;
     void rest(double seconds) override;
     std::uint64_t bytes_sent() const override { return sent_; }
@@ -61,10 +61,10 @@ class TcpChannel final : public Channel {
 
     /// Takes a connection as if it had been accepted.
     void adopt(Socket socket, const std::string& from);
-    /// Connections that have not proved anything yet.
+    /// Number of unauthenticated connections.
     std::size_t unproven() const { return visitors_.size(); }
 
-    /// Sends what is queued, says that nothing more will come, and waits for guests to close, up to so many seconds.
+    /// Sends queued data, announces the end, and waits for guests to close, at most `seconds`.
     void close(double seconds);
 
   private:
@@ -78,7 +78,7 @@ class TcpChannel final : public Channel {
         TcpLink link;
         std::string from;
         struct Behind {
-            std::size_t bytes;  ///< that were unsent then
+            std::size_t bytes;  ///< queued bytes at that time
             double since;
         };
         std::optional<Behind> behind;
@@ -101,14 +101,14 @@ class TcpChannel final : public Channel {
     JoinTicket ticket_;
     std::list<Visitor> visitors_;
     std::map<int, Guest> links_;
-    int last_heard_ = 0;  ///< whose message poll() returned last: others come first
+    int last_heard_ = 0;  ///< peer of the last message of poll(); the others come first
     std::vector<std::uint8_t> scratch_;
     std::uint64_t sent_ = 0, received_ = 0;
     int warnings_ = 0;
 };
 
-/// A guest's channel to the coordinator, peer 0: connects and proves itself. Throws InputError with what to do where it
-/// is turned away or nobody answers.
+/// Channel of a guest to the coordinator, peer 0: connects and authenticates itself. Throws InputError with a cure if
+/// it is refused or gets no answer.
 std::unique_ptr<Channel> join_run(const JoinTicket& ticket, std::uint64_t fingerprint);
 
 }  // namespace treefarm

@@ -13,7 +13,7 @@ namespace treefarm {
 
 namespace {
 
-/// Bytes that are moved at a time: nobody keeps others waiting.
+/// Bytes moved at a time, so that no connection delays the others.
 constexpr std::size_t kMostMoved = std::size_t{1} << 20;
 
 bool would_block(int error) {
@@ -47,7 +47,7 @@ void TcpLink::send(const Payload& payload) {
     } while (begin < payload->size());
 }
 
-/// False if the socket takes no more for now.
+/// False if the socket accepts no more for now.
 bool TcpLink::write_some(Frame& frame, std::size_t& moved) {
     const auto bytes = std::span(*frame.payload).subspan(frame.begin, frame.end - frame.begin);
     if (!frame.has_head) {
@@ -63,7 +63,7 @@ bool TcpLink::write_some(Frame& frame, std::size_t& moved) {
     const ssize_t count = ::sendmsg(socket_.fd(), &message, MSG_NOSIGNAL | MSG_DONTWAIT);
     if (count < 0) {
         if (would_block(errno)) return false;
-        deaf_ = true;  // it may have said good-bye before: that is read first
+        deaf_ = true;  // it may have said good-bye before, which is read first
         queue_.clear();
         unsent_ = 0;
         return false;

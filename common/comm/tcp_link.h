@@ -12,33 +12,33 @@
 
 namespace treefarm {
 
-/// One end of a session over a socket that never blocks.
+/// One end of a session over a non-blocking socket.
 class TcpLink {
   public:
-    /// `reader`: of what the other end sends; it may hold messages already.
+    /// `reader`: of the other end's data; it may hold messages already.
     TcpLink(Socket socket, const JoinKey& sending_key, FrameReader reader);
 
     /// Queues a message.
     void send(const Payload& payload);
 
-    /// Move what can be moved without waiting, but not for ever; false if nothing could.
+    /// Move data without waiting, up to a limit; false if nothing could be moved.
     bool write();
     bool read(std::span<std::uint8_t> scratch);
 
-    /// The next whole message.
+    /// The next whole message, or nothing.
     std::optional<Bytes> take() { return reader_.next(); }
     bool has_message() const { return reader_.has_message(); }
 
-    /// Whether more may come.
+    /// Whether more messages may arrive.
     bool is_open() const { return closed_.empty(); }
-    /// Reason why not; kFarewell where the other end has closed it.
+    /// Reason for the end; kFarewell if the other end closed the connection.
     const std::string& why_closed() const { return closed_; }
     void close(const std::string& why);
-    /// Says that nothing more will come from here; what is queued must have been sent.
+    /// Announces the end of this direction; the queue must be empty.
     void end_sending();
 
     int fd() const { return socket_.fd(); }
-    /// Bytes that are queued.
+    /// Queued bytes.
     std::size_t unsent() const { return unsent_; }
 
     static constexpr const char* kFarewell = "closed its connection";
@@ -47,7 +47,7 @@ class TcpLink {
     struct Frame {
         Payload payload;
         std::size_t begin, end;   ///< of the part
-        FrameHead head{};         ///< made when its turn comes: a MAC of everything at once would take too long
+        FrameHead head{};         ///< computed just before sending: MACs of everything at once would take too long
         std::size_t written = 0;  ///< head included
         bool has_head = false;
     };
@@ -61,7 +61,7 @@ class TcpLink {
     std::deque<Frame> queue_;
     std::size_t unsent_ = 0;
     std::string closed_;
-    bool deaf_ = false;  ///< the other end takes nothing more; what it has sent may still come
+    bool deaf_ = false;  ///< the other end accepts no more data; data it has sent may still arrive
 };
 
 }  // namespace treefarm

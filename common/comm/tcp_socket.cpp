@@ -29,7 +29,7 @@ struct FreeAddresses {
 };
 using Addresses = std::unique_ptr<addrinfo, FreeAddresses>;
 
-/// Addresses of a name; nothing, and why.
+/// Addresses of a name; empty, with the reason.
 Addresses look_up(const std::string& address, std::uint16_t port, int flags, std::string& why) {
     addrinfo hints{};
     hints.ai_family = AF_UNSPEC;
@@ -66,7 +66,7 @@ std::uint16_t port_of(const Socket& socket) {
                                                : reinterpret_cast<const sockaddr_in&>(address).sin_port);
 }
 
-/// Waits for a connection to come about; 0, or the errno that it failed with.
+/// Waits for a connection to be established. Returns 0 or the errno of the failure.
 int await_connection(const Socket& socket, double seconds, const std::function<bool()>& stopped) {
     constexpr double kLookSeconds = 0.05;
     const Timer timer;

@@ -11,7 +11,7 @@ namespace treefarm {
 
 namespace {
 
-/// Layers whose channels the file has in any case.
+/// Whether the image file has this layer without a request.
 bool is_taken(const std::string& layer) {
     return layer == "variance" || layer == "halfA" || layer == "halfB";
 }
@@ -25,7 +25,7 @@ bool is_layer_name(const std::string& name) {
            name.front() != '.' && name.back() != '.';
 }
 
-/// The request in an entry; `why` is set where there is none.
+/// The request in one entry of the list; `why` is set if the entry is malformed.
 AovRequest parse_entry(const std::string& entry, std::string& why) {
     const std::size_t colon = entry.rfind(':');
     const std::string name(trim(std::string_view(entry).substr(colon == std::string::npos ? 0 : colon + 1)));

@@ -9,14 +9,14 @@
 
 namespace treefarm {
 
-/// The AOVs in a list of names with commas between: "albedo, normal, near:depth" asks for the third as layer "near".
-/// If the text is no such list the result is empty and `why` says why, and what to do.
+/// The AOVs in a comma-separated list: "albedo, normal, near:depth" requests depth as a layer named "near". If the text
+/// is malformed, the result is empty and `why` holds the reason and the cure.
 std::vector<AovRequest> parse_aovs(const std::string& text, std::string& why);
 
-/// The AOVs that a job asks for.
+/// The AOVs that a job requests.
 std::vector<AovRequest> aov_requests(const Job& job);
 
-/// One entry of the list: "depth", or "near:depth".
+/// Entry of the list for a request: "depth", or "near:depth".
 std::string aov_text(const AovRequest& request);
 
 }  // namespace treefarm

@@ -13,7 +13,7 @@ namespace treefarm {
 
 namespace {
 
-/// What of many techniques together gives no image of the light.
+/// Checks the combination of integrator.techniques with other keys.
 void check_techniques(const Job& job) {
     if (job.integrator.mis == MisHeuristic::equal)
         throw InputError(Location{"integrator.mis", 0, 0},
@@ -37,7 +37,7 @@ void check_techniques(const Job& job) {
                          "bidirectional.techniques, for instance \"1,2\"");
 }
 
-/// What of a job its estimator cannot do.
+/// Checks that the job uses no feature that its estimator lacks.
 void check_estimator(const Job& job, const Estimator& estimator) {
     const std::string name = "the estimator \"" + job.integrator.type + "\"";
     const std::string usual = std::string("integrator.type = \"") + estimators()[0].type + "\"";

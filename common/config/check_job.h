@@ -5,11 +5,11 @@
 
 namespace treefarm {
 
-/// From this depth on roulette must play where no depth limit ends paths: light between white walls would go on
-/// forever.
+/// Greatest rr_depth of a job without a depth limit: later roulette would let light between white walls go on
+/// practically forever.
 inline constexpr int kLatestRoulette = 10'000;
 
-/// Checks what no single key can see. Throws InputError.
+/// Checks rules that involve several keys. Throws InputError.
 void check_job(const Job& job);
 
 }  // namespace treefarm

@@ -7,7 +7,7 @@
 
 namespace treefarm {
 
-/// Keys of a job that say what guides paths and how that learns: those of job_keys() that begin with "guiding.".
+/// The keys of job_keys() that begin with "guiding.".
 std::vector<JobKey> guiding_keys();
 
 }  // namespace treefarm

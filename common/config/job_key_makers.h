@@ -21,7 +21,7 @@ inline constexpr std::int64_t kMaxSpp = std::int64_t{1} << 30;
 
 /// Keys of a job by what their value is. `member` gives the place of the value in a job, const or not.
 
-/// An integer in [low, high] or, if given, the `also` value.
+/// Key of an integer in [low, high] or, if given, equal to `also`.
 template <class Member>
 JobKey integer_key(const char* name, const char* range, const char* doc, Member member, std::int64_t low,
                    std::int64_t high, std::int64_t also) {
@@ -45,7 +45,7 @@ JobKey integer_key(const char* name, const char* range, const char* doc, Member 
     return integer_key(name, range, doc, member, low, high, low);
 }
 
-/// A number accepted by `in_range`; `read` understands it with a unit, too.
+/// Key of a number for which `in_range` holds; `read` parses it, with its unit.
 template <class Member, class Check>
 JobKey number_key(const char* name, const char* range, const char* doc, Member member, Check in_range,
                   std::optional<double> (*read)(std::string_view) = &parse_number) {
@@ -94,7 +94,7 @@ JobKey text_key(const char* name, const char* doc, Member member) {
             {}};
 }
 
-/// One of some words; `Value` is an enum or a std::string.
+/// Key of one of several words; `Value` is an enum or a std::string.
 template <class Member, class Value>
 JobKey word_key(const char* name, const char* doc, Member member, std::vector<std::pair<std::string, Value>> words,
                 std::vector<UnavailableValue> unavailable = {}) {
@@ -121,7 +121,7 @@ JobKey word_key(const char* name, const char* doc, Member member, std::vector<st
             std::move(unavailable)};
 }
 
-/// A key whose value says how long what a render has begun with goes on.
+/// Key of a Rule.
 template <class Member>
 JobKey rule_key(const char* name, const char* doc, Member member) {
     return word_key(name, doc, member,

@@ -15,8 +15,7 @@
 namespace treefarm {
 namespace {
 
-
-/// The estimator, by the list of all.
+/// The key integrator.type; its values come from the list of estimators.
 JobKey estimator_key() {
     std::vector<std::pair<std::string, std::string>> words;
     std::string meaning = "how the image is estimated;";
@@ -30,16 +29,16 @@ JobKey estimator_key() {
     return key;
 }
 
-/// An effect that is not forced off, in a word.
+/// Value of an effect's key that does not switch it off.
 constexpr const char* kWhereCalledFor = "where_called_for";
 
-/// Forces an effect off.
+/// The key that switches an effect off.
 JobKey effect_key(const EffectSwitch& effect) {
     const std::string name = effect.name;
     return {kEffectsPrefix + name,
             ValueKind::off_switch,
             in_quotes(kWhereCalledFor) + " or false",
-            std::string(kWhereCalledFor) + " (or auto): as the scene calls for it; false: " + effect.replacement,
+            std::string(kWhereCalledFor) + " (or auto): on if the scene uses it; false: " + effect.replacement,
             [name](Job& job, const std::string& text) {
                 if (text == "false") job.effects.off.insert(name);
                 const bool called_for = text == kWhereCalledFor || text == "auto";
@@ -50,13 +49,13 @@ JobKey effect_key(const EffectSwitch& effect) {
             {}};
 }
 
-/// The key whose value is a number, or (by default, 0) that next event decides.
+/// The key integrator.light_samples: a number, or (by default, 0) decided by next event.
 JobKey light_samples_key() {
     constexpr const char* kByNextEvent = "by_next_event";
     JobKey key = number_key(
         "integrator.light_samples", "0 to 1, or \"by_next_event\"",
-        "part of the vertices at which next event samples an emitter, everywhere the same, to compare; lights without "
-        "extent always; by_next_event, or 0: as integrator.next_event says",
+        "share of the vertices at which next event samples an emitter, equal everywhere, for comparisons; lights "
+        "without extent are always sampled; by_next_event, or 0: decided by integrator.next_event",
         [](auto& j) -> auto& { return j.integrator.light_samples; }, [](float v) { return v >= 0.0f && v <= 1.0f; });
     key.kind = ValueKind::number_or_text;
     key.parse = [number = key.parse](Job& job, const std::string& text) {
@@ -68,7 +67,7 @@ JobKey light_samples_key() {
     return key;
 }
 
-/// The layers of the image besides colour.
+/// The key output.aovs: layers besides colour.
 JobKey aovs_key() {
     std::string range;
     for (const AovKind& kind : aov_kinds())
@@ -95,25 +94,26 @@ JobKey aovs_key() {
             }};
 }
 
-/// The techniques of bidirectional paths that are shown.
+/// The key integrator.techniques of bidirectional paths.
 JobKey techniques_key() {
-    return {"bidirectional.techniques",
-            ValueKind::text,
-            R"("all", or pairs of vertices from lamp and camera, as "0,3 1,2")",
-            "techniques of which the image is made, each with its part of the light: their images add up to the whole",
-            [](Job& job, const std::string& text) {
-                std::string why;
-                const std::vector<Technique> techniques = parse_techniques(text, why);
-                if (why.empty()) job.bidirectional.techniques = techniques_text(techniques);
-                return why.empty();
-            },
-            [](const Job& job) { return job.bidirectional.techniques; },
-            {},
-            [](const std::string& text) {
-                std::string why;
-                parse_techniques(text, why);
-                return why;
-            }};
+    return {
+        "bidirectional.techniques",
+        ValueKind::text,
+        R"("all", or pairs of vertices from lamp and camera, as "0,3 1,2")",
+        "techniques that contribute to the image, each with its share of the light: their images add up to the whole",
+        [](Job& job, const std::string& text) {
+            std::string why;
+            const std::vector<Technique> techniques = parse_techniques(text, why);
+            if (why.empty()) job.bidirectional.techniques = techniques_text(techniques);
+            return why.empty();
+        },
+        [](const Job& job) { return job.bidirectional.techniques; },
+        {},
+        [](const std::string& text) {
+            std::string why;
+            parse_techniques(text, why);
+            return why;
+        }};
 }
 
 std::vector<JobKey> make_job_keys() {
@@ -124,7 +124,8 @@ std::vector<JobKey> make_job_keys() {
         "scene.file", "the scene to render; relative to the folder of the job file",
         [](auto& j) -> auto& { return j.scene.file; }));
     add(boolean_key(
-        "scene.lenient", "replace or skip what cannot be rendered, with a warning, where strict reading is an error",
+        "scene.lenient",
+        "replace or skip, with a warning, parts of the scene that cannot be rendered; otherwise they are errors",
         [](auto& j) -> auto& { return j.scene.lenient; }));
 
     add(text_key(
@@ -135,36 +136,38 @@ std::vector<JobKey> make_job_keys() {
 
     add(text_key(
         "scene.root",
-        "folder below which all files of the scene have to lie, links followed: for scenes of others; empty: anywhere",
+        "folder that must contain all files of the scene, links followed: for untrusted scenes; empty: no limit",
         [](auto& j) -> auto& { return j.scene.root; }));
     add(integer_key(
-        "scene.max_file_mb", "1 to 2147", "10^6 bytes that a file of the scene may have",
+        "scene.max_file_mb", "1 to 2147", "greatest size of a file of the scene, 10^6 bytes",
         [](auto& j) -> auto& { return j.scene.max_file_mb; }, 1, 2147));
     add(integer_key(
-        "scene.max_image_megapixels", "1 to 268", "10^6 pixels that an image of the scene may have",
+        "scene.max_image_megapixels", "1 to 268", "greatest size of an image of the scene, 10^6 pixels",
         [](auto& j) -> auto& { return j.scene.max_image_megapixels; }, 1, 268));
     add(integer_key(
-        "scene.max_triangles", "0 to 2^40", "triangles that all meshes of the scene together may have; 0: any number",
+        "scene.max_triangles", "0 to 2^40", "greatest number of triangles of all meshes together; 0: no limit",
         [](auto& j) -> auto& { return j.scene.max_triangles; }, 0, std::int64_t{1} << 40));
     add(integer_key(
-        "image.width", "0 to 65535", "pixels; 0: as the scene says", [](auto& j) -> auto& { return j.image.width; }, 0,
+        "image.width", "0 to 65535", "pixels; 0: as in the scene", [](auto& j) -> auto& { return j.image.width; }, 0,
         65535));
     add(integer_key(
-        "image.height", "0 to 65535", "pixels; 0: as the scene says", [](auto& j) -> auto& { return j.image.height; },
-        0, 65535));
+        "image.height", "0 to 65535", "pixels; 0: as in the scene", [](auto& j) -> auto& { return j.image.height; }, 0,
+        65535));
 
     add(estimator_key());
     add(integer_key(
-        "integrator.max_depth", "-1, or 1 and more", "path edges from the camera: 1 sees emitters only; -1: no limit",
+        "integrator.max_depth", "-1, or 1 and more",
+        "greatest number of path edges from the camera; 1: directly visible emitters; -1: no limit",
         [](auto& j) -> auto& { return j.integrator.max_depth; }, 1, kMaxInt, -1));
     add(integer_key(
         "integrator.rr_depth", "1 and more", "Russian roulette ends paths from this depth on",
         [](auto& j) -> auto& { return j.integrator.rr_depth; }, 1, kMaxInt));
     add(word_key(
         "integrator.next_event",
-        "when emitters are sampled directly; kickstart: in passes that start with fewer than 128 spp done; "
-        "while_it_pays: at every vertex, a quarter or a sixteenth of them, as finished passes show, and always where "
-        "they may not decide (presets, budget.strict, other weights); auto: left to the program, as while_it_pays",
+        "passes that sample emitters directly; kickstart: those that start with fewer than 128 spp done; "
+        "while_it_pays: all, at every vertex, a quarter or a sixteenth of them, decided from finished passes, or at "
+        "every vertex if these may not decide (presets, budget.strict, other weights); auto: chosen by the program, at "
+        "present while_it_pays",
         [](auto& j) -> auto& { return j.integrator.next_event; },
         std::vector<std::pair<std::string, NextEvent>>{{"always", NextEvent::always},
                                                        {"never", NextEvent::never},
@@ -173,53 +176,54 @@ std::vector<JobKey> make_job_keys() {
                                                        {"auto", NextEvent::automatic}}));
     add(light_samples_key());
     add(word_key(
-        "integrator.mis", "heuristic that weighs next event against scattering (Veach 1997); equal: half and half",
+        "integrator.mis", "MIS heuristic between next event and scattering (Veach 1997); equal: weights of 1/2",
         [](auto& j) -> auto& { return j.integrator.mis; },
         std::vector<std::pair<std::string, MisHeuristic>>{
             {"power", MisHeuristic::power}, {"balance", MisHeuristic::balance}, {"equal", MisHeuristic::equal}}));
     add(word_key(
         "integrator.light_selection",
-        "how next event chooses among emitters: by power; all alike; tree: by an estimate of what each brings to the "
-        "point; learned: also by what next event has found in the region, tree where nothing is learned",
+        "probabilities by which next event chooses an emitter; power: by power; even: equal; tree: by an estimate of "
+        "its contribution at the point; learned: corrected by what next event has found in the region, or tree if "
+        "nothing is learned",
         [](auto& j) -> auto& { return j.integrator.light_selection; },
         std::vector<std::pair<std::string, LightSelection>>{{"power", LightSelection::power},
                                                             {"even", LightSelection::even},
                                                             {"tree", LightSelection::tree},
                                                             {"learned", LightSelection::learned}}));
     add(boolean_key(
-        "integrator.strict_normals", "drop light that geometric and shading normal disagree about",
+        "integrator.strict_normals", "discard light on different sides of the geometric and the shading surface",
         [](auto& j) -> auto& { return j.integrator.strict_normals; }));
     add(boolean_key(
         "integrator.hide_emitters", "the camera does not see emitters directly",
         [](auto& j) -> auto& { return j.integrator.hide_emitters; }));
     add(boolean_key(
         "integrator.split_glass",
-        "where the camera sees smooth glass, a path follows what it mirrors and what is behind it, not one by chance",
+        "paths follow both reflection and refraction at smooth glass that the camera sees, instead of one at random",
         [](auto& j) -> auto& { return j.integrator.split_glass; }));
 
     add(integer_key(
-        "integrator.emitter_samples", "0 to 65535", "direct: emitters that are sampled at what the camera sees",
+        "integrator.emitter_samples", "0 to 65535", "direct: emitter samples per visible surface point",
         [](auto& j) -> auto& { return j.integrator.emitter_samples; }, 0, 65535));
     add(integer_key(
-        "integrator.bsdf_samples", "0 to 65535", "direct: directions of the BSDF that are sampled there",
+        "integrator.bsdf_samples", "0 to 65535", "direct: BSDF samples per visible surface point",
         [](auto& j) -> auto& { return j.integrator.bsdf_samples; }, 0, 65535));
     add(number_key(
         "integrator.ao_distance", "0 and more",
-        "ao: how far away something darkens, in scene units; 0: a quarter of the diagonal of the scene's box",
+        "ao: distance up to which surfaces darken, in scene units; 0: a quarter of the diagonal of the scene's box",
         [](auto& j) -> auto& { return j.integrator.ao_distance; }, [](float v) { return v >= 0.0f; }));
 
     add(boolean_key(
-        "bidirectional.light_image", "paths from lamps are connected to the lens, too",
+        "bidirectional.light_image", "connect light paths to the lens, too",
         [](auto& j) -> auto& { return j.bidirectional.light_image; }));
     add(rule_key(
         "bidirectional.light_subpaths",
-        "how long samples have a path from a lamp, too; while_it_pays: until a pass shows that it does not, or to the "
-        "end where only such paths find some of the light; usual: that, or always where techniques are named",
+        "passes whose samples have a light subpath; while_it_pays: until a pass shows that it does not pay, or all if "
+        "only such paths find some of the light; usual: while_it_pays, or always if techniques are listed",
         [](auto& j) -> auto& { return j.bidirectional.light_subpaths; }));
     add(techniques_key());
     add(boolean_key(
         "bidirectional.weighted",
-        "techniques share the light that several find; false: each shows all that it finds, to compare them",
+        "weight techniques against each other (MIS); false: each shows all the light that it finds, for comparisons",
         [](auto& j) -> auto& { return j.bidirectional.weighted; }));
 
     for (const EffectSwitch& effect : effect_switches())
@@ -233,8 +237,7 @@ std::vector<JobKey> make_job_keys() {
         [](auto& j) -> auto& { return j.budget.spp; }, 1, kMaxSpp));
     add(number_key(
         "budget.seconds", R"(0, or 0.001 to 10^8; or with a unit in quotes: "90s", "2min", "1h")",
-        "seconds of rendering, from when the first worker asks for work until the last pass is whole; 0: no such "
-        "budget",
+        "wall-clock seconds from the first worker's request for work to the end of the last pass; 0: no such budget",
         [](auto& j) -> auto& { return j.budget.seconds; },
         [](double v) { return v == 0.0 || (v >= kLeastSeconds && v <= kMostSeconds); }, &parse_duration));
     add(number_key(
@@ -243,11 +246,10 @@ std::vector<JobKey> make_job_keys() {
         [](auto& j) -> auto& { return j.budget.error; },
         [](double v) { return v == 0.0 || (v >= kLeastError && v <= kGreatestError); }, &parse_fraction));
     add(integer_key(
-        "budget.max_spp", "1 to 2^30",
-        "samples per pixel at which `budget.seconds` and `budget.error` end at the latest",
+        "budget.max_spp", "1 to 2^30", "greatest number of samples per pixel with `budget.seconds` or `budget.error`",
         [](auto& j) -> auto& { return j.budget.max_spp; }, 1, kMaxSpp));
     add(boolean_key(
-        "budget.strict", "the image is the last pass alone, its length set before it began: exactly unbiased",
+        "budget.strict", "the image is the last pass alone, whose length is fixed before it begins: exactly unbiased",
         [](auto& j) -> auto& { return j.budget.strict; }));
 
     add(integer_key(
@@ -259,51 +261,51 @@ std::vector<JobKey> make_job_keys() {
         [](auto& j) -> auto& { return j.farm.tile_size; }, 1, 1024));
     add(boolean_key(
         "farm.profile",
-        "time the parts of tracing, for the columns profile_* of passes.csv; costs about 2 % of the time",
+        "measure the phases of tracing, for the columns profile_* of passes.csv; costs about 2 % of the time",
         [](auto& j) -> auto& { return j.farm.profile; }));
     const auto seconds = [](double v) { return v >= 0.001 && v <= 3600.0; };
     add(number_key(
-        "farm.heartbeat_seconds", "0.001 to 3600", "how often each side says that it lives",
+        "farm.heartbeat_seconds", "0.001 to 3600", "interval of heartbeats between coordinator and workers",
         [](auto& j) -> auto& { return j.farm.heartbeat_seconds; }, seconds));
     add(number_key(
         "farm.update_seconds", "0.001 to 3600",
-        "how often a worker sends what it has finished; more rarely where splats to a large film would fill a network",
+        "interval at which a worker sends finished units; longer if splats to a large film would fill the network",
         [](auto& j) -> auto& { return j.farm.update_seconds; }, seconds));
     add(number_key(
         "farm.checkpoint_seconds", "0 to 86400",
-        "least seconds from one checkpoint to the next; 0: none is written, and the render cannot be gone on with",
+        "least seconds between checkpoints; 0: none is written, and the render cannot be resumed",
         [](auto& j) -> auto& { return j.farm.checkpoint_seconds; }, [](double v) { return v >= 0 && v <= 86400; }));
     add(number_key(
         "farm.leave_seconds", "0 to 3600",
-        "how long a worker that is told to leave (SIGTERM) goes on with the tiles that it has begun",
+        "seconds that a worker told to leave (SIGTERM) may spend on tiles that it has begun",
         [](auto& j) -> auto& { return j.farm.leave_seconds; }, [](double v) { return v >= 0 && v <= 3600; }));
     const std::vector<std::pair<std::string, std::string>> isas{
         {"sse2", "sse2"}, {"sse4.2", "sse4.2"}, {"avx", "avx"}, {"avx2", "avx2"}, {"avx512", "avx512"}};
     add(word_key(
-        "farm.isa", "instruction set that Embree uses, the same on every worker",
-        [](auto& j) -> auto& { return j.farm.isa; }, isas));
+        "farm.isa", "Embree's instruction set, equal on all workers", [](auto& j) -> auto& { return j.farm.isa; },
+        isas));
     add(boolean_key(
         "farm.robust",
         "watertight: no ray slips through an edge that two triangles share, or starts behind a corner; much slower",
         [](auto& j) -> auto& { return j.farm.robust; }));
     add(boolean_key(
-        "farm.memory_check", "refuse to begin where a host has less memory than its processes are expected to take",
+        "farm.memory_check", "refuse to begin if a host has less memory than its processes are expected to need",
         [](auto& j) -> auto& { return j.farm.memory_check; }));
     add(boolean_key(
-        "farm.join", "listen for workers that join while the render runs (docs/use/join.md)",
+        "farm.join", "accept workers that join during the render (docs/use/join.md)",
         [](auto& j) -> auto& { return j.farm.join; }));
     add(integer_key(
-        "farm.join_port", "0 to 65535", "port to listen at for them; 0: any that is free",
+        "farm.join_port", "0 to 65535", "port for joining workers; 0: any free one",
         [](auto& j) -> auto& { return j.farm.join_port; }, 0, 65535));
     add(text_key(
-        "farm.join_address", "address of this machine to listen at for them; 0.0.0.0 or :: for all that it has",
+        "farm.join_address", "address of this machine for joining workers; 0.0.0.0 or :: for all of its addresses",
         [](auto& j) -> auto& { return j.farm.join_address; }));
 
     add(text_key(
         "output.directory", "the run directory; empty: runs/<scene>-<time>",
         [](auto& j) -> auto& { return j.output.directory; }));
     add(text_key(
-        "output.file", "also write the image here (an .exr file, or a .png to look at); empty: nowhere else",
+        "output.file", "second copy of the image (an .exr file, or a .png for viewing); empty: none",
         [](auto& j) -> auto& { return j.output.file; }));
     add(aovs_key());
     add(boolean_key(
@@ -314,7 +316,8 @@ std::vector<JobKey> make_job_keys() {
     const std::vector<std::pair<std::string, std::string>> compressions{
         {"auto", "auto"}, {"none", "none"}, {"rle", "rle"}, {"zips", "zips"}, {"zip", "zip"}, {"piz", "piz"}};
     add(word_key(
-        "output.compression", "of image.exr, lossless in any case; auto: rle where all channels are floats, else zip",
+        "output.compression",
+        "compression of image.exr, always lossless; auto: rle if all channels are floats, else zip",
         [](auto& j) -> auto& { return j.output.compression; }, compressions));
     add(integer_key(
         "output.tiles", "0, or 16 to 4096", "edge of the tiles in image.exr, pixels; 0: scan lines",

@@ -21,7 +21,7 @@ namespace {
 constexpr std::uintmax_t kMaxFileBytes = 16u << 20;
 
 std::string toml_string(const std::string& text) {
-    // Over several lines toml++ loses a newline that the text begins with, and keys may have none; so it is escaped.
+    // In a multi-line string toml++ loses a leading newline, and keys cannot be multi-line; so newlines are escaped.
     const bool one_line = text.find('\n') == std::string::npos;
     const toml::format_flags escaped =
         toml::toml_formatter::default_flags &
@@ -32,7 +32,7 @@ std::string toml_string(const std::string& text) {
     return out.str();
 }
 
-/// Texts with commas between, as a list.
+/// A comma-separated text as a TOML list.
 std::string toml_list(const std::string& text) {
     std::string list;
     for (std::size_t begin = 0; begin < text.size();) {
@@ -48,7 +48,8 @@ std::string toml_key(const std::string& key) {
     return !key.empty() && key.find_first_not_of(bare) == std::string::npos ? key : toml_string(key);
 }
 
-/// Sections that only a resolved.toml has: values by names that only other modules know.
+/// Reads a section that only resolved.toml has, whose names this module does not know (plan/resolved_file.h checks
+/// them).
 void read_record(const toml::table& section, const std::string& prefix, const std::string& file,
                  std::vector<Setting>& settings) {
     for (const auto& [key, node] : section) {
@@ -116,7 +117,7 @@ std::vector<Setting> scene_layer(std::span<const Setting> scene,
         });
     });
     if (unguided || chosen({"guiding.type", "guiding.preset"})) drop("guiding.preset");
-    // It would win over samples that the job asks for.
+    // A time limit of the scene would override samples that the job asks for.
     if (chosen({"budget.spp", "budget.seconds", "budget.error"})) drop("budget.seconds");
     return layer;
 }
@@ -194,7 +195,7 @@ std::string write_job(const Job& job) {
         text += (text.empty() ? "[" : "\n[") + name + "]\n";
         section = name;
     };
-    // A key of [scene] must not stand below [scene.defines].
+    // Keys of [scene] must come before [scene.defines].
     const auto write_defines = [&] {
         if (job.scene.defines.empty()) return;
         begin_section("scene.defines");
@@ -216,7 +217,7 @@ std::string write_job(const Job& job) {
                           (key.kind == ValueKind::number_or_text && !parse_number(value));
         if (word) value = toml_string(value);
         if (key.kind == ValueKind::text_list) value = toml_list(value);
-        // TOML tells numbers from integers by the point; reading takes both.
+        // TOML tells numbers from integers by the point; the reader takes both.
         text += key.name.substr(dot + 1) + " = " + value + "\n";
     }
     return text;

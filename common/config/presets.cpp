@@ -25,8 +25,9 @@ std::span<const Setting> preset_settings(const std::string& preset) {
         {"integrator.light_selection", "power", {}},
         {"integrator.split_glass", "false", {}},
     };
-    // With what PPG's authors added to their program for the course "Path Guiding in Production" (SIGGRAPH 2019,
-    // chapter 10): its read-me names six parameters, the rest is the program's. Next event is as scene or job have it.
+    // Additions that PPG's authors made to their program for the course "Path Guiding in Production" (SIGGRAPH 2019,
+    // chapter 10). Its read-me names six parameters; the others are from the program. Next event is left to scene and
+    // job.
     static const std::vector<Setting> improved = {
         {"guiding.type", "ppg", {}},
         {"integrator.mis", "power", {}},
@@ -46,7 +47,7 @@ std::span<const Setting> preset_settings(const std::string& preset) {
         {"integrator.light_selection", "power", {}},
         {"integrator.split_glass", "false", {}},
     };
-    // The thesis' program is that of paper but for these: they come later and win.
+    // The thesis' program: that of paper, with these settings in place of its own.
     static const std::vector<Setting> thesis = [] {
         std::vector<Setting> settings = paper;
         settings.insert(settings.end(), {{"guiding.type", "view", {}},

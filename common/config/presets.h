@@ -8,7 +8,7 @@
 
 namespace treefarm {
 
-/// The settings that a value of guiding.preset stands for; "" stands for none.
+/// Settings of a value of guiding.preset; none for "".
 std::span<const Setting> preset_settings(const std::string& preset);
 
 }  // namespace treefarm

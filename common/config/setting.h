@@ -7,7 +7,7 @@
 
 namespace treefarm {
 
-/// One key with its value as text, and where it was said: in a job file, in the scene's integrator, or by --set.
+/// A key with its value as text, and its location: in a job file, in the scene's integrator, or in --set.
 struct Setting {
     std::string key;    ///< "integrator.max_depth"
     std::string value;  ///< as text, without quotes

@@ -9,7 +9,7 @@
 namespace treefarm {
 namespace {
 
-/// Vertices of a subpath that a list may name.
+/// Greatest number of vertices of a subpath in a list.
 constexpr std::int64_t kMostVertices = 1000;
 
 }  // namespace

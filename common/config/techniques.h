@@ -6,25 +6,25 @@
 
 namespace treefarm {
 
-/// A way to draw a path from lamp to lens: how many of its vertices are drawn from either end. The lamp's and the
-/// lens's own are among them.
+/// Path sampling technique: numbers of vertices drawn from the lamp and from the lens, those on the lamp and on the
+/// lens included.
 struct Technique {
     int light = 0, camera = 0;
 
     bool operator==(const Technique&) const = default;
 };
 
-/// The techniques in a list "0,3 1,2" of vertices from the lamp and from the camera; all of them for "all", which is an
-/// empty vector. If the text is no such list, `why` says why, and what to do.
+/// Techniques of a list "0,3 1,2": vertices from the lamp, vertices from the camera. "all" gives an empty vector. If
+/// the text is malformed, `why` holds the reason and the cure.
 std::vector<Technique> parse_techniques(const std::string& text, std::string& why);
 
-/// The list as parse_techniques() reads it.
+/// The list as text for parse_techniques().
 std::string techniques_text(const std::vector<Technique>& techniques);
 
-/// The techniques of which an image is made.
+/// The techniques that contribute to an image.
 class TechniqueSet {
   public:
-    /// `text`: one that parse_techniques() takes.
+    /// `text`: valid for parse_techniques().
     explicit TechniqueSet(const std::string& text);
 
     bool has(int light, int camera) const;

@@ -11,14 +11,14 @@ namespace treefarm {
 
 namespace {
 
-/// The first of these keys that a table has, or nullptr.
+/// First of these keys that a table has, or nullptr.
 const toml::key* first_key(const toml::table& table, std::initializer_list<std::string_view> keys) {
     for (const std::string_view key : keys)
         if (const auto found = table.find(key); found != table.cend()) return &found->first;
     return nullptr;
 }
 
-/// A key that only studies have: [scene.NAME] among them.
+/// A key that only studies have, such as [scene.NAME]; or nullptr.
 const toml::key* study_key(const toml::table& table) {
     if (const toml::key* key = first_key(table, {"method", "vary", "seeds", "baseline", "warmup"})) return key;
     if (const toml::table* scenes = table["scene"].as_table())
@@ -27,7 +27,7 @@ const toml::key* study_key(const toml::table& table) {
     return nullptr;
 }
 
-/// A key that only jobs have.
+/// A key that only jobs have, or nullptr.
 const toml::key* job_key(const toml::table& table) {
     if (const toml::key* key =
             first_key(table, {"integrator", "image", "guiding", "sampler", "farm", "output", "effects"}))

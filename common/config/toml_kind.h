@@ -8,11 +8,10 @@
 
 namespace treefarm {
 
-/// Purpose of a TOML file of ours.
+/// Purpose of a TOML file.
 enum class TomlKind : std::uint8_t { job, study };
 
-/// Throws InputError where a file is plainly of another kind than the command takes, and names the command that takes
-/// it.
+/// Throws InputError if a file is of another kind than the command takes, and names the right command.
 void require_kind(const toml::table& table, const std::string& file, TomlKind wanted);
 
 }  // namespace treefarm

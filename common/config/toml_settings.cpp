@@ -11,12 +11,12 @@
 namespace treefarm {
 namespace {
 
-/// Keys of earlier versions.
+/// Keys that earlier versions had, and their new names.
 constexpr std::pair<const char*, const char*> kRenamedKeys[] = {
     {"guiding.light_selection", "integrator.light_selection"},
 };
 
-/// A section is the beginning of some key's name: "scene", "scene.defines".
+/// Whether a name is a section, that is, the beginning of a key's name: "scene", "scene.defines".
 bool is_section(const std::string& name) {
     const std::string beginning = name + ".";
     for (const JobKey& key : job_keys())

@@ -9,7 +9,7 @@
 
 namespace treefarm {
 
-/// A layer of the image besides its colour (an arbitrary output variable). What each holds: aov_kinds().
+/// Layer of the image besides its colour (arbitrary output variable). Contents: aov_kinds().
 enum class Aov : std::uint8_t {
     albedo,
     normal,
@@ -26,11 +26,11 @@ enum class Aov : std::uint8_t {
     spp,
 };
 
-/// An AOV as users name it, and as an EXR file holds it.
+/// Name and properties of an AOV for users and EXR files.
 struct AovKind {
     Aov aov;
-    const char* name;        ///< in output.aovs, and of its layer unless another is asked for
-    const char* components;  ///< a channel each: "RGB" are NAME.R, NAME.G, NAME.B; of alpha just A
+    const char* name;        ///< name in output.aovs; also the layer's default name
+    const char* components;  ///< one channel each: "RGB" stands for NAME.R, NAME.G, NAME.B; alpha has A alone
     bool precise;            ///< stays 32 bits wide where colours are stored as halves
     const char* meaning;     ///< one line
 };
@@ -38,10 +38,10 @@ struct AovKind {
 /// All AOVs, in the order of the enum.
 std::span<const AovKind> aov_kinds();
 const AovKind& kind_of(Aov aov);
-/// The AOV of that name, or nullptr.
+/// The AOV of this name, or nullptr.
 const AovKind* find_aov(const std::string& name);
 
-/// An AOV that a job asks for, under the name of its layer.
+/// A requested AOV and its layer's name.
 struct AovRequest {
     Aov aov;
     std::string layer;
@@ -50,8 +50,8 @@ struct AovRequest {
     std::vector<std::string> channels() const;
 };
 
-/// The numbers that are gathered of each pixel for the AOVs of a job. Most are sums over samples; those from id_begin()
-/// on are of the pixel's first sample.
+/// Layout of the numbers gathered per pixel for a job's AOVs. Most are sums over samples; those from id_begin() on are
+/// of the pixel's first sample.
 class AovLayout {
   public:
     AovLayout() { at_.fill(kAbsent); }
@@ -59,12 +59,12 @@ class AovLayout {
 
     static constexpr std::uint32_t kAbsent = ~0u;
 
-    /// Index of the first of an AOV's numbers, or kAbsent. Alpha's is the number of samples that met a surface.
+    /// Index of an AOV's first number, or kAbsent. Alpha counts the samples that hit a surface.
     std::uint32_t at(Aov aov) const { return at_[static_cast<std::size_t>(aov)]; }
     bool has(Aov aov) const { return at(aov) != kAbsent; }
     std::uint32_t size() const { return size_; }
     std::uint32_t id_begin() const { return id_begin_; }
-    /// Whether the part of each pixel's colour that is direct light is gathered, too.
+    /// Whether direct light is gathered as well, per pixel.
     bool direct() const { return direct_; }
     bool empty() const { return size_ == 0 && !direct_; }
 

@@ -13,9 +13,9 @@ namespace treefarm {
 
 namespace {
 
-/// A number that sums of samples can come to, and that can be added up further.
+/// Whether the value is a possible sum of samples, with margin for further addition.
 bool is_sum(double value) {
-    constexpr double kMost = 1e60;  // 10^38 times 10^9 samples fit in
+    constexpr double kMost = 1e60;  // at most 10^38 times 10^9 samples
     return value > -kMost && value < kMost;
 }
 
@@ -96,7 +96,7 @@ Bytes AovFilm::encode(const DoneWork& done) const {
 void AovFilm::restore(const DoneWork& done, std::span<const std::uint8_t> bytes) {
     const std::size_t row = layout_.size();
     if (row > 0 && (done.pixel_count() * row != values_.size() || done.chunks() != chunks_))
-        throw FormatError("the AOVs of a pass in hand have another size");
+        throw FormatError("the AOVs of a partial pass have another size");
     ByteReader reader(bytes);
     ByteReader rows(reader.get_bytes(row == 0 ? 0 : done.estimate_count() * row * sizeof(double)));
     if (layout_.direct()) direct_.restore(done, reader.get_rest());

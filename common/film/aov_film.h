@@ -13,29 +13,29 @@
 
 namespace treefarm {
 
-/// What a work unit, or a pass, gives for AOVs besides its pixels.
+/// AOVs of a work unit or a pass, beside its pixel estimates.
 struct AovPixels {
-    std::vector<double> values;         ///< pixel by pixel, as the layout says
-    std::vector<PixelEstimate> direct;  ///< the part of each pixel that is direct light; empty where nobody asks
+    std::vector<double> values;         ///< pixel by pixel, in the order of AovLayout
+    std::vector<PixelEstimate> direct;  ///< direct light of each pixel; empty unless requested
 };
 
-/// Reduces the numbers of a pixel's consecutive aligned blocks, one row of AovLayout::size() after the other, along the
-/// tree of reduce_blocks(); the result is the first row.
+/// Reduces the numbers of a pixel's consecutive aligned blocks, one row of AovLayout::size() numbers per block, along
+/// the tree of reduce_blocks(); the result is in the first row.
 void reduce_aov_blocks(const AovLayout& layout, std::span<double> blocks);
 
-/// The AOVs of one pass: takes work units in any order and gives the same bits.
+/// The AOVs of one pass. Work units may come in any order; the result has the same bits.
 class AovFilm {
   public:
     AovFilm(const AovLayout& layout, int width, int height, std::uint32_t chunks);
 
-    /// Throws FormatError where what a unit gives is not of its size, or no finite number.
+    /// Throws FormatError unless the AOVs of a unit have its size and finite numbers.
     void check(const WorkUnit& unit, const AovPixels& pixels) const;
-    /// Adds what check() lets pass of a unit that fits the film; each pixel and chunk once.
+    /// Adds the AOVs of a unit, after check(); each pixel and chunk once.
     void add(const WorkUnit& unit, const AovPixels& pixels);
-    /// What has come, as PassFilm::encode(); restore() likewise.
+    /// The state as bytes, as PassFilm::encode(); restore() likewise.
     Bytes encode(const DoneWork& done) const;
     void restore(const DoneWork& done, std::span<const std::uint8_t> bytes);
-    /// Everything, once the film is complete.
+    /// The AOVs of the complete film, moved out.
     AovPixels take();
 
   private:
@@ -48,7 +48,7 @@ class AovFilm {
     int width_;
     std::uint32_t chunks_;
     std::vector<double> values_;
-    std::unordered_map<std::uint32_t, Pending> pending_;  ///< by pixel: those not yet whole
+    std::unordered_map<std::uint32_t, Pending> pending_;  ///< pixels that lack chunks, by index
     PassFilm direct_;
 };
 
@@ -65,19 +65,19 @@ class AovSums {
     AovSums() : AovSums({}, 0) {}
     AovSums(std::span<const AovRequest> requests, std::size_t pixel_count);
 
-    /// Adds a pass of `spp` samples per pixel; in the order of the passes, since sums round.
+    /// Adds a pass of `spp` samples per pixel. The order of passes matters, since sums round.
     void add(const AovPixels& pass, std::uint32_t spp);
-    /// The channels asked for. `image` is made of `passes`.
+    /// The requested channels. `image`: the combination of `passes`.
     std::vector<AovChannel> channels(const CombinedImage& image, std::span<const PassResult> passes) const;
 
     bool requested() const { return !requests_.empty(); }
-    /// Whether the sums are of the pixels and AovRequests that they were made for: those that were read may not be.
+    /// Whether the sums match the pixels and requests of this object; sums that were read from a file may not.
     bool fits() const {
         return values_.size() == layout_.size() * pixel_count_ &&
                direct_.size() == (layout_.direct() ? pixel_count_ : 0);
     }
 
-    /// Lists what it remembers, for a checkpoint.
+    /// Archives the state, for a checkpoint.
     template <class Archive>
     void serialize(Archive& archive) {
         archive(spp_, values_, direct_);

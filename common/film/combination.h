@@ -5,11 +5,11 @@
 
 namespace treefarm {
 
-/// How the images of the passes become one (docs/design/error.md, "combining passes").
+/// Method of combining the images of passes (docs/design/error.md, "combining passes").
 enum class Combination : std::uint8_t {
-    inverse_variance,  ///< one scalar per pass, cross-fitted over two halves
-    fixed,             ///< weights set beforehand: exactly unbiased, what z-tests use
-    last,              ///< the passes of the last tree alone (PPG 2017)
+    inverse_variance,  ///< one scalar weight per pass, cross-fitted over two halves
+    fixed,             ///< weights set in advance: exactly unbiased, as z-tests need
+    last,              ///< only the passes with the last tree (PPG 2017)
 };
 
 }  // namespace treefarm

@@ -14,16 +14,16 @@
 namespace treefarm {
 namespace {
 
-/// Clamps a pixel's variance in stuv_ppg, as the authors' program does.
+/// Limit of a pixel's variance in stuv_ppg, as in the authors' program.
 constexpr double kVarianceClamp = 1e4;
 
-/// Pixels that are worth a thread.
+/// Least number of pixels per thread.
 constexpr std::size_t kLeastPart = 1024;
 
-/// Passes one after the other that have one tree, and sample emitters in one way.
+/// Consecutive passes with one tree and one way of sampling emitters.
 using Alike = std::span<const PassResult>;
 
-/// The passes from number `first` on that are like it.
+/// The passes from number `first` on that are alike.
 Alike alike_from(std::span<const PassResult> passes, std::size_t first) {
     std::size_t end = first + 1;
     while (end < passes.size() && passes[end].same_tree && !passes[end].new_technique)
@@ -38,8 +38,8 @@ std::uint32_t spp_of(Alike passes) {
     return spp;
 }
 
-/// Noise of one half of the samples, without the worst pixels: a rare sample in one half would take all weight from its
-/// pass in the other, which does not hold it.
+/// Noise of one half of the samples, without the worst pixels: otherwise a rare sample in one half would cost its pass
+/// all weight in the other half, which lacks it.
 HalfNoise measure_half(Alike passes, std::size_t half) {
     const std::size_t count = passes.front().pixels.size();
     constexpr double kNone = -1;
@@ -71,12 +71,12 @@ SampleNoise measure_noise(Alike passes) {
     return noise;
 }
 
-/// Whether passes are weighed by their noise. Without guiding all samples are alike: none is thrown away.
+/// Whether passes are weighted by their noise. Without guiding all samples are equally good, and none is discarded.
 bool weighs_by_noise(Combination method, bool guided) {
     return guided && method == Combination::inverse_variance;
 }
 
-/// All passes, in groups of those that are alike.
+/// Group of passes that are alike.
 struct Group {
     Alike passes;
     SampleNoise noise;
@@ -119,18 +119,18 @@ std::vector<double> fixed_weights(std::span<const PassResult> passes, bool guide
     return weights;
 }
 
-/// Passes, one after the other, whose samples are taken for equally noisy.
+/// Consecutive passes whose samples count as equally noisy.
 struct Level {
     std::size_t first, end;
     double spp, variance;
-    bool apart;  ///< sampled in another way than the level before
+    bool apart;  ///< sampled by another technique than the level before
 };
 
-/// A tree is at least as good as the one before. Where it has more noise, the noise is in the measurement: a short pass
-/// has not met the rare samples yet that a long one knows of. Both are then as good (isotonic regression by pooling
-/// adjacent violators). The same holds for unguided passes after guided ones, which come where guiding did not pay: a
-/// guided sample may be better there, but the few that there are lose less by being taken for equal than by the
-/// weights that their passes report.
+/// Appends a level under the assumption that each tree is at least as good as the one before. If it measures noisier,
+/// the measurement is at fault: a short pass has not met the rare samples that a long one has. Both levels are then
+/// pooled (isotonic regression by pooling adjacent violators). The same holds for unguided passes after guided ones,
+/// which follow where guiding did not pay: guided samples may be better there, but their small number loses less by
+/// equal weight than by the weights that their passes report.
 void add_level(std::vector<Level>& levels, Level last) {
     while (!levels.empty() && !last.apart && last.variance >= levels.back().variance) {
         const Level before = levels.back();
@@ -142,14 +142,14 @@ void add_level(std::vector<Level>& levels, Level last) {
     levels.push_back(last);
 }
 
-/// Weights of the samples of one half by the inverse variance that the other, `half`, reports.
+/// Weights of the samples of one half, by the inverse variance that the other half, `half`, reports.
 std::vector<double> inverse_variance_weights(std::span<const PassResult> passes, const std::vector<Group>& groups,
                                              int half, bool guided) {
     std::vector<Level> levels;
-    // Where guiding was given up no tree was better than another: those too young to tell count like the next, or the
-    // last.
+    // If guiding was given up, no tree was better than another: passes too short to measure take the noise of the next
+    // one, or of the last.
     const bool young_count = !passes.back().guided;
-    std::vector<std::uint32_t> samples(passes.size(), 0);  // of those that count
+    std::vector<std::uint32_t> samples(passes.size(), 0);  // of passes that count
     bool apart = true;
     std::size_t first = 0, level_begin = 0;
     for (const Group& group : groups) {
@@ -161,7 +161,8 @@ std::vector<double> inverse_variance_weights(std::span<const PassResult> passes,
         if (known || young_count)
             std::ranges::copy(group.noise.half[std::size_t(1 - half)].samples, samples.begin() + std::ptrdiff_t(first));
         if (known) {
-            if (!(*variance > 0)) return fixed_weights(passes, guided);  // a tree without noise: nothing to weigh by
+            if (!(*variance > 0))
+                return fixed_weights(passes, guided);  // a tree without noise: no weight can be derived
             add_level(levels, {level_begin, end, double(spp), *variance, apart});
             apart = false;
             level_begin = end;
@@ -179,8 +180,8 @@ std::vector<double> inverse_variance_weights(std::span<const PassResult> passes,
 }
 
 /// Estimated variance of one sample of a pass in a pixel; `longest` is the pixel in the longest pass. From four samples
-/// on it knows nothing of the difference between the halves, which is looked at beside it (error_estimate.cpp). A
-/// single sample has but its distance from what the longest pass says.
+/// on the estimate ignores the difference between the halves, which error_estimate.cpp uses. For a single sample it is
+/// the squared distance from the longest pass.
 Rgb64 sample_variance(const PixelEstimate& pixel, const PixelEstimate& longest) {
     const std::uint32_t n = pixel.half[0].n + pixel.half[1].n;
     if (n >= tuned<std::uint32_t>("schedule.least_weighed_spp"))
@@ -192,7 +193,7 @@ Rgb64 sample_variance(const PixelEstimate& pixel, const PixelEstimate& longest) 
     return distance * distance * (static_cast<double>(reference.n) / (reference.n + 1));
 }
 
-/// The passes at the end that had one tree.
+/// The passes at the end that share one tree.
 Alike passes_of_last_tree(std::span<const PassResult> passes) {
     std::size_t first = passes.size() - 1;
     while (first > 0 && passes[first].same_tree)
@@ -210,8 +211,8 @@ struct Estimate {
     Rgb64 mean{0.0}, variance{0.0};
 };
 
-/// The weighted mean of one half of a pixel's samples. Passes of which the half holds nothing give up their weight;
-/// where only passes without weight hold anything, their samples weigh alike.
+/// Weighted mean of one half of a pixel's samples. A pass without samples in this half loses its weight; if only passes
+/// of weight zero have samples, these weigh equally.
 Estimate combine_half(std::span<const PassResult> passes, const std::vector<double>& weights, int half, std::size_t p,
                       const PassResult& longest) {
     Estimate pixel;
@@ -235,7 +236,7 @@ Estimate combine_half(std::span<const PassResult> passes, const std::vector<doub
     return pixel;
 }
 
-/// The image by halves with weights of their own, and their average.
+/// The image of each half with its own weights, and their average.
 CombinedImage combine_halves(std::span<const PassResult> passes, const std::array<std::vector<double>, 2>& weights) {
     CombinedImage image;
     const std::size_t count = passes.front().pixels.size();
@@ -257,8 +258,8 @@ CombinedImage combine_halves(std::span<const PassResult> passes, const std::arra
     return image;
 }
 
-/// A pass of one sample joins no half; a run that has only such passes is its plain weighted mean. A pass that holds
-/// nothing of a pixel gives up its weight there.
+/// The image from whole passes. A pass of one sample has no halves; a run of such passes only is their weighted mean. A
+/// pass without samples of a pixel loses its weight there.
 CombinedImage combine_whole(std::span<const PassResult> passes, const std::vector<double>& weights) {
     CombinedImage image;
     const std::size_t count = passes.front().pixels.size();
@@ -286,7 +287,7 @@ CombinedImage combine_whole(std::span<const PassResult> passes, const std::vecto
     return image;
 }
 
-/// Weights of the passes as they were rendered: those of a merged one by their samples.
+/// Weights of the original passes; the weight of a merged pass is divided by samples.
 std::vector<double> weights_of_parts(std::span<const PassResult> passes, const std::vector<double>& weights) {
     std::vector<double> of_parts;
     for (std::size_t k = 0; k < passes.size(); ++k) {
@@ -300,7 +301,8 @@ std::vector<double> weights_of_parts(std::span<const PassResult> passes, const s
 }  // namespace
 
 double fixed_weight(std::uint32_t spp, std::uint32_t spp_before, bool guided) {
-    // What a pass is worth grows with what its tree was learned from; the first pass, untrained, counts a little.
+    // The quality of a pass grows with the samples that its tree was learned from; the first, untrained pass counts a
+    // little.
     return spp * (guided ? std::sqrt(static_cast<double>(std::max(spp_before, 1u))) : 1.0);
 }
 
@@ -317,10 +319,10 @@ CombinedImage combine_passes(std::span<const PassResult> passes, Combination met
         guided = false;
     }
     const std::uint32_t longest = longest_pass(passes).spp;
-    if (longest < 2) return combine_whole(passes, fixed_weights(passes, guided));  // none of which is merged
+    if (longest < 2) return combine_whole(passes, fixed_weights(passes, guided));  // none of these is merged
 
-    // Set weights apply to all samples of a pass alike. Variances cross over: what half A reports weighs half B, so
-    // that a weight never depends on the samples that it multiplies.
+    // Preset weights apply to both halves. Variances cross over: those of half A weigh half B, so that no weight
+    // depends on the samples it multiplies.
     CombinedImage image;
     if (weighs_by_noise(method, guided)) {
         const std::vector<Group> groups = group_alike(passes);

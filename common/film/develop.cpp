@@ -9,11 +9,11 @@
 namespace treefarm {
 namespace {
 
-/// Pixels that are worth a thread.
+/// Least number of pixels per thread.
 constexpr std::size_t kLeastPart = 4096;
 
-/// Adds the splats of a half of a pixel that has so many paths, at least one, and samples; of Markov chains: at least
-/// two of them.
+/// Adds the splats of a half of a pixel. `paths`: number of the half's paths, or samples, at least one; for Markov
+/// chains the half must have two chains.
 void add_splats(Moments& pixel, const SplatMoments& splats, const SplatShape& shape, std::uint32_t paths,
                 std::uint32_t chains) {
     const double n = paths, samples = pixel.n;
@@ -22,9 +22,10 @@ void add_splats(Moments& pixel, const SplatMoments& splats, const SplatShape& sh
     for (int c = 0; c < 3; ++c) {
         const auto k = static_cast<std::size_t>(c);
         const double mean = static_cast<double>(splats.sum[k]) * quantum;
-        // Splats are so rare in a pixel that their number is Poisson's: the sum of squares is the variance of the sum.
+        // Splats are so rare in a pixel that their number is Poisson-distributed: the sum of squares is the variance of
+        // the sum.
         double variance = static_cast<double>(splats.square[k]) * square;
-        // Chains do not depend on each other: the deviations of their sums are that of the whole.
+        // Chains are independent: the deviations of their sums are those of the total.
         if (shape.chains) variance = std::max(0.0, (variance * chains - mean * mean) / (chains - 1.0));
         pixel.mean[c] += mean;
         pixel.m2[c] += variance * (samples * (samples - 1));

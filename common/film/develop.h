@@ -10,18 +10,18 @@
 
 namespace treefarm {
 
-/// Samples of each half: even and odd numbers.
+/// Number of samples of each half: even and odd indices.
 using HalfCounts = std::array<std::uint32_t, 2>;
 
-/// Even and odd numbers among [first, first + count).
+/// Number of even and of odd indices in [first, first + count).
 HalfCounts half_counts(std::uint64_t first, std::uint32_t count);
 
-/// The image of a pass from its layers, in the one form that combination, error and budgets know: pixel estimates to
-/// which the splats' means and variances are added. `paths`: per pixel that splatted, by halves. Where a pass has no
-/// estimates (none are given) it is the number of samples as well; where it has, a half counts only if both layers have
-/// something of it. Whoever divides a sample variance by n gets the variance of the mean (docs/design/error.md,
-/// "splats"). Without splats, `estimates` as they are. `chains`: Markov chains of each half, where they splatted; a
-/// half with less than two has no variance and does not count.
+/// Image of a pass from its layers: pixel estimates with the means and variances of splats added, the form that
+/// combination, error estimate and budgets use. A sample variance divided by n is the variance of the mean
+/// (docs/design/error.md, "splats"). `paths`: paths per pixel that splatted, by halves. For a pass without estimates
+/// (an empty vector) it is the number of samples, too; otherwise a half counts only if both layers have samples of it.
+/// `chains`: Markov chains of each half if they splatted; a half with fewer than two has no variance and does not
+/// count. Without splats, `estimates` is returned as it is.
 std::vector<PixelEstimate> develop(std::vector<PixelEstimate> estimates, const SplatSums& splats,
                                    const HalfCounts& paths, const HalfCounts& chains = {});
 

@@ -45,7 +45,7 @@ std::vector<WorkUnit> DoneWork::left_of(const WorkUnit& unit) const {
     return unit.kind == UnitKind::tile ? left_of_tile(unit) : left_of_range(unit);
 }
 
-/// Runs of pixels, row by row; one that lies as a rectangle above it ends makes that longer.
+/// Runs of pixels, row by row; a run below a rectangle of the same columns extends it.
 std::vector<WorkUnit> DoneWork::left_of_tile(const WorkUnit& tile) const {
     std::vector<WorkUnit> pieces;
     for (std::uint16_t y = tile.y0; y < tile.y1; ++y)

@@ -5,8 +5,8 @@
 
 namespace treefarm {
 
-/// What a film holds of a pass in hand, pixel by pixel: calls whole(pixel) where all chunks are done, otherwise
-/// part(pixel, chunk) for each that is. Every layer stores and restores in this order.
+/// Visits the finished parts of a partial pass, pixel by pixel: whole(pixel) if all chunks are finished, otherwise
+/// part(pixel, chunk) for each finished one. All layers store and restore in this order.
 template <class Whole, class Part>
 void for_each_done(const DoneWork& done, const Whole& whole, const Part& part) {
     for (std::uint32_t pixel = 0; pixel < done.pixel_count(); ++pixel) {

@@ -8,15 +8,14 @@
 
 namespace treefarm {
 
-/// How often light paths start from each emitter, by what those of earlier passes brought to the image: noise is least
-/// where an emitter is chosen in proportion to the root of its paths' second moment (docs/design/transport.md). Exact
-/// sums make it, frozen during a pass, so it is the same whatever the farm was.
+/// Probability with which light paths start at each emitter, from the contributions of earlier passes: noise is least
+/// if an emitter is chosen in proportion to the root of its paths' second moment (docs/design/transport.md). Computed
+/// from exact sums and fixed during a pass, so it does not depend on the farm.
 
-/// Factor of each entry's probability by power, before all are scaled to sum to one; empty where nothing is known, or
-/// there is no choice.
+/// Factor of each entry's probability by power, before normalisation; empty if there are no data, or no choice.
 std::vector<float> emission_emphasis(const EmissionSums& sums);
 
-/// Fewest emitters from which at least half of the light paths started; 0 where nobody counted.
+/// Least number of emitters that started at least half of the light paths; 0 if not counted.
 std::size_t emitters_of_half(const EmissionSums& sums);
 
 }  // namespace treefarm

@@ -12,15 +12,15 @@ namespace treefarm {
 namespace {
 
 constexpr std::size_t kResamples = 1000;
-constexpr double kTail = 0.025;            ///< on each side of a 95 % interval
-constexpr std::size_t kMostBlocks = 1024;  ///< so that the cost does not grow with the image
+constexpr double kTail = 0.025;            ///< probability on each side of a 95 % interval
+constexpr std::size_t kMostBlocks = 1024;  ///< limits the cost for large images
 constexpr double kFewPixels = 100;
 
-/// Two estimates of the summed squared error of a block of pixels. The pixels of a block are scattered over the image:
-/// their errors are independent wherever they lie, but loud pixels lie together, and one loud block among quiet ones
-/// says little of its own spread.
+/// Two estimates of the summed squared error of a block. The pixels of a block are scattered over the image: their
+/// errors are independent anywhere, but noisy pixels are neighbours, and one noisy block among quiet ones would say
+/// little about its own spread.
 struct BlockError {
-    double by_variance = 0;  ///< what the variances expect
+    double by_variance = 0;  ///< expected from the variances
     double by_halves = 0;    ///< ((a - b) / 2)^2 of the two halves: as uncertain as the squared error itself
 };
 
@@ -28,7 +28,7 @@ double channel_sum(const Rgb64& v) {
     return v.x + v.y + v.z;
 }
 
-/// Spreads the bits of a pixel's index (the finaliser of splitmix64).
+/// Permutes the bits of a pixel's index (the finaliser of splitmix64).
 std::uint64_t scattered(std::uint64_t index) {
     index = (index + 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
     index = (index ^ (index >> 27)) * 0x94d049bb133111ebu;
@@ -56,7 +56,7 @@ BlockError total(const std::vector<BlockError>& blocks) {
     return sum;
 }
 
-/// by_halves / by_variance over resampled blocks, sorted. Blocks of no variance drop out.
+/// Ratios by_halves / by_variance over resampled blocks, sorted. Blocks without variance are skipped.
 std::vector<double> resampled_ratios(const std::vector<BlockError>& blocks, std::uint64_t seed) {
     std::vector<double> ratios;
     ratios.reserve(kResamples);
@@ -76,9 +76,9 @@ std::vector<double> resampled_ratios(const std::vector<BlockError>& blocks, std:
     return ratios;
 }
 
-/// Where few blocks make up most of the spread it is itself uncertain, and an interval from it too narrow: the factor
-/// by which Student's t with as many degrees of freedom is wider than the normal distribution at 97.5 %
-/// (Cornish-Fisher).
+/// Factor by which Student's t is wider than the normal distribution at 97.5 % (Cornish-Fisher), with the effective
+/// number of blocks as degrees of freedom. If a few blocks make up most of the spread, the spread is uncertain, and an
+/// interval from it too narrow.
 double small_sample_factor(const std::vector<BlockError>& blocks, double centre) {
     double squares = 0, fourth_powers = 0;
     for (const BlockError& block : blocks) {
@@ -91,7 +91,7 @@ double small_sample_factor(const std::vector<BlockError>& blocks, double centre)
     return 1 + (1.21 + 1.44 / freedom) / freedom;
 }
 
-/// Number of pixels of equal noise that would make up an error that is known as badly.
+/// Effective number of pixels: of equal noise, so many would give an error with the same uncertainty.
 double noisy_pixels(const CombinedImage& image) {
     double sum = 0, squares = 0;
     for (const Rgb64& variance : image.variance) {
@@ -101,9 +101,9 @@ double noisy_pixels(const CombinedImage& image) {
     return squares > 0 ? sum * sum / squares : 0;
 }
 
-/// Where a few rare samples are the whole error, the halves cannot show its spread: each of them is alone in its pixel,
-/// and the difference of the halves is then as large as the estimate, whatever others were missed. The interval is at
-/// least that of a variance by so many normal numbers (chi-square by Wilson and Hilferty).
+/// Widens the interval if a few rare samples make up the whole error. The halves cannot show its spread then: each rare
+/// sample is alone in its pixel, and the halves differ by as much as the estimate, whichever others were missed. The
+/// interval becomes at least that of a variance of `pixels` normal numbers (chi-square by Wilson and Hilferty).
 void widen_for_few(ErrorEstimate& estimate, double pixels) {
     if (pixels >= kFewPixels) return;
     const auto quantile = [&](double z) {
@@ -134,11 +134,11 @@ ErrorEstimate estimate_error(const CombinedImage& image, std::uint64_t seed) {
     estimate.rmse = estimate.low = estimate.high = std::sqrt(whole.by_variance / (3 * count));
     estimate.has_interval = image.longest_pass >= tuned<std::uint32_t>("schedule.least_weighed_spp");
     if (!estimate.has_interval || !(whole.by_variance > 0 && whole.by_halves > 0)) return estimate;
-    // (error^2 - variance) has the same spread as (halves' difference^2 - variance), which can be looked at: both are
-    // squares of half the sum or difference of the same two independent errors. Only the spread is taken from there.
+    // (error^2 - variance) has the spread of (halves' difference^2 - variance), which can be measured: both are squares
+    // of half the sum or difference of the same two independent errors. Only the spread is taken from the latter.
     const std::vector<double> ratios = resampled_ratios(blocks, seed);
     const double centre = whole.by_halves / whole.by_variance;
-    const double exponent = 0.5 * small_sample_factor(blocks, centre);  // 0.5: of the root
+    const double exponent = 0.5 * small_sample_factor(blocks, centre);  // 0.5: square root
     const auto at = [&](double fraction) {
         const double index = fraction * static_cast<double>(ratios.size() - 1);
         return std::pow(ratios[static_cast<std::size_t>(std::lround(index))] / centre, exponent);

@@ -7,17 +7,17 @@
 
 namespace treefarm {
 
-/// An image's estimate of its own error (docs/design/error.md, "error").
+/// Estimate of an image's own error (docs/design/error.md, "error").
 struct ErrorEstimate {
     bool known = false;         ///< false: no pass has two samples per pixel
-    bool has_interval = false;  ///< false: no pass has four; low and high are then rmse
-    double rmse = 0;  ///< root of the mean squared error over pixels and channels, as `treefarm compare` measures it
-    double low = 0;   ///< 95 % interval of what this very image's error is: lower
-    double high = 0;  ///< and upper end
-    double mean = 0;  ///< mean luminance
+    bool has_interval = false;  ///< false: no pass has four samples per pixel; low and high equal rmse
+    double rmse = 0;            ///< root of the mean squared error over pixels and channels, as in `treefarm compare`
+    double low = 0;             ///< lower end of a 95 % interval for the error of this image
+    double high = 0;            ///< upper end
+    double mean = 0;            ///< mean luminance
 
     double mse() const { return rmse * rmse; }
-    /// rmse / mean; 0 where there is no error, infinite for a black image that has one.
+    /// Ratio rmse / mean; 0 without error, infinite for a black image with an error.
     double relative() const { return relative(rmse); }
     double relative_low() const { return relative(low); }
     double relative_high() const { return relative(high); }
@@ -26,8 +26,8 @@ struct ErrorEstimate {
     double relative(double error) const;
 };
 
-/// The error by the image's own variances. Its interval is a block bootstrap with random numbers of their own, keyed by
-/// `seed`: the same for the same image.
+/// Error from the image's own variances. The interval is a block bootstrap with its own random numbers, keyed by
+/// `seed`: equal images give equal intervals.
 ErrorEstimate estimate_error(const CombinedImage& image, std::uint64_t seed);
 
 }  // namespace treefarm

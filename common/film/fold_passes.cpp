@@ -9,10 +9,10 @@
 namespace treefarm {
 namespace {
 
-/// Pixels that are worth a thread.
+/// Least number of pixels per thread.
 constexpr std::size_t kLeastPart = 4096;
 
-/// How much is lost where a pass is merged into the one before it.
+/// Cost of merging a pass into the one before it.
 enum class Loss { none, other_tree, other_technique };
 
 Loss loss_of(const PassResult& first, const PassResult& second) {
@@ -55,7 +55,7 @@ void fold_passes(std::vector<PassResult>& passes) {
     const std::size_t first = pair_to_fold(passes);
     merge_into(passes[first], std::move(passes[first + 1]));
     passes.erase(passes.begin() + static_cast<std::ptrdiff_t>(first) + 1);
-    // Noise is kept with the first of those that are alike, which may be an earlier pass.
+    // Noise is stored in the first of the passes that are alike, which may be an earlier one.
     for (std::size_t k = 0; k <= first; ++k)
         passes[k].noise = {};
 }

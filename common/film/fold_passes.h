@@ -9,17 +9,17 @@
 
 namespace treefarm {
 
-/// Most images of finished passes that a render keeps, so that its memory does not grow with its passes.
+/// Greatest number of pass images that a render keeps, which bounds its memory.
 inline constexpr std::size_t kMostPassImages = 8;
 
-/// Number of the first of the two neighbours that are to become one. Alike passes come first: nothing is lost by
-/// merging them. Then those of one technique, then any; of equals the two with the fewest samples together, the older
-/// ones of those. The last pass stays as it is, since its own figures are still asked for. Never looks at a sample, so
-/// the choice cannot bias the image. `passes`: three at least.
+/// Index of the first of the two neighbours to merge. Pairs of alike passes come first, since merging them loses
+/// nothing; then pairs of one technique, then any; among equals the pair with the fewest samples, then the oldest. The
+/// last pass is never merged, since its own figures are needed. The choice does not depend on samples, so it cannot
+/// bias the image. `passes`: at least three.
 std::size_t pair_to_fold(std::span<const PassResult> passes);
 
-/// Merges two neighbours of `passes` where there are more than kMostPassImages: their samples become those of one pass
-/// (docs/design/error.md, "many passes"). Called after each pass.
+/// Merges two neighbours if there are more than kMostPassImages: their samples become those of one pass
+/// (docs/design/error.md, "many passes"). To be called after each pass.
 void fold_passes(std::vector<PassResult>& passes);
 
 }  // namespace treefarm

@@ -10,7 +10,7 @@
 namespace treefarm {
 namespace {
 
-/// Adds a value in whole units; what is no number counts nothing.
+/// Adds a value, rounded to whole units; NaN and infinity are skipped.
 void add_units(std::uint64_t& sum, double value, double unit) {
     constexpr double kMost = 0x1p52;
     if (!std::isfinite(value)) return;
@@ -61,11 +61,11 @@ GuidingEfficiency GuidingEvidence::efficiency() const {
     GuidingEfficiency efficiency;
     efficiency.guided_cost = guided_cost;
     efficiency.unguided_cost = unguided_cost;
-    constexpr double kLeast = 1e-9;  // no noise at all
+    constexpr double kLeast = 1e-9;  // stands for no noise
     efficiency.guided_variance = all_guided;
     efficiency.unguided_variance = std::max(all_unguided, kLeast * std::max(all_guided, kLeast));
     efficiency.efficiency = efficiency.unguided_variance * unguided_cost / (all_guided * guided_cost);
-    // The spread of the logarithm, by leaving groups out.
+    // Standard error of the logarithm, by the jackknife over groups.
     double sum = 0, squares = 0, weight = 0, weights = 0;
     for (std::size_t g = 0; g < guided.size(); ++g) {
         const double others_guided = all_guided - guided[g], others_unguided = all_unguided - unguided[g];

@@ -9,14 +9,14 @@
 namespace treefarm {
 namespace {
 
-/// 64 bits hold the sums of 2^29 samples of the largest variance there is, and of 2^40 of the usual one.
+/// Unit of the sums: 64 bits hold those of 2^29 samples of the largest variance, and of 2^40 samples of the usual one.
 constexpr double kUnitsPerOne = 0x1p24;
 
 std::uint64_t in_units(double value) {
     return static_cast<std::uint64_t>(std::llround(std::max(value, 0.0) * kUnitsPerOne));
 }
 
-/// LightSubpathGain::noise as far as the light that samples without light subpaths miss tells it; 0: nothing.
+/// Part of LightSubpathGain::noise from light that samples without light subpaths miss; 0: none.
 double missed_light_noise(const LightSubpathSums& sums) {
     const auto samples = static_cast<double>(sums.samples);
     const auto mean = [samples](std::uint64_t sum) { return static_cast<double>(sum) / (samples * kUnitsPerOne); };

@@ -5,24 +5,24 @@
 
 namespace treefarm {
 
-/// Whether light subpaths pay, measured by the render itself: a bidirectional sample also knows what its path from the
-/// camera would carry alone, with the weights that next event and scattering have between themselves. So each sample is
-/// two, told apart by the same path, and a few tell.
+/// Measurement, by the render itself, of whether light subpaths pay: a bidirectional sample also gives the value of its
+/// camera path alone, weighted as next event and scattering would do between themselves. Both values come from the same
+/// path, so a few samples suffice.
 
-/// Samples of a pixel, each of them with its light subpath and without.
+/// Samples of a pixel, each with its light subpath and without.
 class SubpathPairs {
   public:
-    /// What one sample brings.
+    /// Contributions of one sample.
     struct Sample {
         double own = 0;                        ///< luminance at its own pixel
-        double alone = 0;                      ///< what that would be without the light subpath
-        double splats = 0, splat_squares = 0;  ///< sum and sum of squares of what it brings to any pixel
+        double alone = 0;                      ///< luminance there without the light subpath
+        double splats = 0, splat_squares = 0;  ///< sum and sum of squares of contributions to any pixel
     };
 
-    /// Luminances at a common scale that does not depend on them: about 1. Samples that are no numbers are left out,
-    /// what is larger than LightSubpaths::most_of_mean is taken for it.
+    /// Adds a sample. Luminances are in a common scale that does not depend on them, near 1. NaN and infinity are
+    /// skipped; larger values than LightSubpaths::most_of_mean are reduced to it.
     void add(const Sample& sample);
-    /// Adds what the samples tell to `sums`, in whole units, and forgets them. A single one tells nothing.
+    /// Adds the pixel's results to `sums`, in whole units, and resets them. A single sample gives none.
     void finish(LightSubpathSums& sums);
 
   private:
@@ -30,19 +30,18 @@ class SubpathPairs {
     double own_ = 0, own_squares_ = 0, alone_ = 0, alone_squares_ = 0, splats_ = 0, splat_squares_ = 0;
 };
 
-/// Gain by light subpaths, of a pass that compared.
+/// Gain by light subpaths, from a pass that compared.
 struct LightSubpathGain {
-    /// Variance without them over that with them, of one sample; 0: not known. Where samples without them have not met
-    /// a caustic yet, their own variance knows nothing of it, and may lie below that of what splats found. But two
-    /// means of the same light differ by their errors alone, so what is missed is an error, and its square is variance
-    /// over samples.
+    /// Variance of one sample without light subpaths over that with them; 0: unknown. If the samples without have
+    /// missed a caustic, their variance ignores it and may be below that of splats that found it. But two means of the
+    /// same light differ only by their errors, so the difference is an error, and its square is added as variance.
     double noise = 0;
-    double rays = 0;  ///< of samples with them over those without
-    /// Mean of the samples without them over that with them, which is 1 but for chance and for light that only they
-    /// find. Where it is low nobody knows how noisy samples without them are.
+    double rays = 0;  ///< rays of samples with light subpaths over those without
+    /// Mean of the samples without light subpaths over that with them: 1, except for chance and for light that only
+    /// light subpaths find. If it is low, the noise of samples without is unknown.
     double mean_ratio = 0;
 
-    /// Noise at equal cost without them, over that with them: above 1 they pay. 0: not known.
+    /// Ratio of noise at equal cost, without light subpaths over with them: above 1 they pay. 0: unknown.
     double at_equal_cost() const;
 };
 LightSubpathGain light_subpath_gain(const TraceStats& stats);

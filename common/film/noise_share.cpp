@@ -15,7 +15,7 @@ std::optional<double> noise_share(std::span<const Rgb64> variance, double part) 
         values.push_back(luminance(v));
     const double goal = part * std::accumulate(values.begin(), values.end(), 0.0);
     if (!(goal > 0)) return std::nullopt;
-    // Bisection by rank: the largest up to `begin` are too little, those up to `end` are enough.
+    // Bisection by rank: the largest up to `begin` are too few, those up to `end` are enough.
     auto begin = values.begin(), end = values.end();
     double before = 0;
     while (end - begin > 1) {

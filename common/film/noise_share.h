@@ -8,8 +8,8 @@
 
 namespace treefarm {
 
-/// Smallest share of the pixels that carry `part`, in (0, 1], of the sum of all variances (luminance); nothing where
-/// that is zero.
+/// Smallest share of the pixels that carries `part`, in (0, 1], of the sum of all variances (luminance); empty if the
+/// sum is zero.
 std::optional<double> noise_share(std::span<const Rgb64> variance, double part);
 
 }  // namespace treefarm

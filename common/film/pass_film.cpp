@@ -57,7 +57,7 @@ Bytes PassFilm::encode(const DoneWork& done) const {
 void PassFilm::restore(const DoneWork& done, std::span<const std::uint8_t> bytes) {
     if (done.pixel_count() != pixels_.size() || done.chunks() != chunks_ ||
         bytes.size() != done.estimate_count() * kEstimateBytes)
-        throw FormatError("the film of a pass in hand has another size");
+        throw FormatError("the film of a partial pass has another size");
     ByteReader reader(bytes);
     for_each_done(
         done,

@@ -6,7 +6,7 @@
 
 namespace treefarm {
 
-/// Writes a pixel's bytes at once: there are millions of pixels.
+/// Writes a pixel in one piece, since there are millions.
 void put_estimate(ByteWriter& writer, const PixelEstimate& pixel) {
     std::array<std::uint8_t, kEstimateBytes> bytes;
     std::uint8_t* next = bytes.data();

@@ -8,11 +8,11 @@
 
 namespace treefarm {
 
-/// Bytes of a stored estimate: for each half its count, mean and squared deviations.
+/// Bytes of a stored estimate: count, mean and squared deviations of each half.
 inline constexpr std::size_t kEstimateBytes = 2 * (sizeof(std::uint32_t) + 6 * sizeof(double));
 
 void put_estimate(ByteWriter& writer, const PixelEstimate& pixel);
-/// Throws FormatError where too few bytes remain.
+/// The next estimate; throws FormatError if too few bytes remain.
 PixelEstimate get_estimate(ByteReader& reader);
 
 }  // namespace treefarm

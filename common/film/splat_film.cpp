@@ -9,16 +9,16 @@
 namespace treefarm {
 namespace {
 
-/// Entries of a log that are summed up at once.
+/// Least number of entries of a log that are summed at once.
 constexpr std::size_t kLogEntries = std::size_t{1} << 16;
-/// Cap of one splat, in quanta; its square is then at most 2^60 units.
+/// Greatest splat, in quanta; its square is then at most 2^60 units.
 constexpr double kMostQuanta = 0x1p40;
-/// Bits by which units of squares are coarser than a quantum squared: the mean splat's square is then one to four.
+/// Squared quanta per unit of squares: the mean splat's square is one to four units.
 constexpr double kPerSquare = 1.0 / (std::uint64_t{1} << kSquareBits);
-/// More splats than a part of a pass can have.
+/// Greatest number of splats in a part of a pass.
 constexpr std::uint64_t kMostCount = std::uint64_t{1} << 48;
 
-/// A sum of quanta, rounded up with the probability of its fraction: its expectation is exact.
+/// Stochastic rounding of a sum of quanta; the expectation is exact.
 std::uint64_t rounded(double quanta, std::uint32_t bits) {
     const double whole = std::floor(quanta);
     const double threshold = static_cast<double>(bits) * 0x1p-32;
@@ -38,7 +38,7 @@ bool is_splat(const Rgb& value) {
 }
 
 void add_saturating(std::uint64_t& sum, std::uint64_t more) {
-    sum = std::min(sum + more, kMostSplatSum);  // both at most 2^63, and above that the limit
+    sum = std::min(sum + more, kMostSplatSum);  // both are at most 2^63; larger sums are the limit
     if (more == kMostSplatSum) sum = kMostSplatSum;
 }
 
@@ -141,8 +141,7 @@ void SplatLog::SummedEntries::sum_up() {
     }
     entries.resize(last + 1);
     summed = entries.size();
-    summing_size =
-        std::max(kLogEntries, 2 * summed);  // a unit that reaches many pixels is not summed up again and again
+    summing_size = std::max(kLogEntries, 2 * summed);  // so that a unit with many pixels is not summed again and again
 }
 
 void SplatLog::begin(const SplatShape& shape) {
@@ -166,7 +165,7 @@ void SplatLog::add(std::uint32_t pixel, std::uint32_t sample, const Rgb& value, 
         capped = capped || whole > kMostQuanta;
         entry.moments.sum[k] = rounded(quanta, bits[k]);
         if (shape_.chains) continue;
-        // Another number than the sum's: a square that knew how it was rounded would be no second moment.
+        // Another random number than for the sum: a square that depended on its rounding would be no second moment.
         const std::uint32_t other = scrambled(bits[3], static_cast<std::uint32_t>(c) + 1);
         entry.moments.square[k] = rounded(quanta * quanta * kPerSquare, other);
     }

@@ -12,53 +12,55 @@
 
 namespace treefarm {
 
-/// A splat is what one path brings to a pixel that it did not start from: v = f / p against the whole film, so that the
-/// image is the sum of v over n, n paths per pixel. Splats are summed as integers, in quanta of 2^exponent: exactly, in
-/// any order, to the same bits (docs/design/error.md, "splats").
+/// Splat: the contribution of a path to a pixel that it did not start from, v = f / p with respect to the whole film.
+/// The image is the sum of v over n, the number of paths per pixel. Splats are summed as integers, in quanta of
+/// 2^exponent, so that any order gives the same bits (docs/design/error.md, "splats").
 
-/// Exponents of quanta that are ever used: splats and their squares are then far from the ends of double.
+/// Limit of a quantum's exponent, either sign: splats and their squares stay far from the ends of double.
 inline constexpr int kMostSplatExponent = 256;
 
-/// What splats of a pass are summed in.
+/// Format of the splat sums of a pass.
 struct SplatShape {
     std::uint32_t pixels = 0;   ///< of the film; 0: the pass has no splats
     std::int16_t exponent = 0;  ///< of the quantum, within +-kMostSplatExponent
-    /// Whether they are of Markov chains: one chain's splats depend on each other, so squares are of what a whole
-    /// chain brings to a pixel.
+    /// Whether the splats are of Markov chains. Splats of one chain depend on each other, so squares are of a whole
+    /// chain's contribution to a pixel.
     bool chains = false;
 
     bool operator==(const SplatShape&) const = default;
 };
 
-/// Exponent of the quanta for splats of which an earlier pass had this mean, above zero: it is 2^10 to 2^11 quanta.
+/// Exponent of the quantum for splats whose mean, above zero, is known from an earlier pass: the mean is 2^10 to 2^11
+/// quanta.
 std::int16_t splat_exponent(double mean);
 
-/// Splats that are not in the sums as they were. Nothing is dropped silently.
+/// Counts of splats that were changed or refused; none is dropped silently.
 struct SplatCaps {
-    std::uint64_t capped = 0;    ///< above 2^40 quanta: the pixel is too dark
-    std::uint64_t rejected = 0;  ///< NaN, infinite or negative: the film's door
+    std::uint64_t capped = 0;    ///< above 2^40 quanta, reduced to that: the pixel is too dark
+    std::uint64_t rejected = 0;  ///< NaN, infinite or negative
 
     void add(const SplatCaps& other);
     bool operator==(const SplatCaps&) const = default;
 };
 
-/// Units of squares are coarser than a quantum squared by so many bits: the mean splat's square is one to four.
+/// Log2 of squared quanta per unit of squares: the mean splat's square is one to four units.
 inline constexpr int kSquareBits = 20;
 
-/// Sums of a half of a pixel's splats.
+/// Splat sums of one half of a pixel.
 struct SplatMoments {
-    std::array<std::uint64_t, 3> sum{};     ///< quanta of v
-    std::array<std::uint64_t, 3> square{};  ///< of v^2, or a chain's, in units of 2^(2 exponent + kSquareBits)
+    std::array<std::uint64_t, 3> sum{};  ///< quanta of v
+    std::array<std::uint64_t, 3>
+        square{};  ///< of v^2, or of a chain's sum squared, in units of 2^(2 exponent + kSquareBits)
 
     void add(const SplatMoments& other);  ///< saturates at kMostSplatSum
     bool empty() const;
     bool operator==(const SplatMoments&) const = default;
 };
 
-/// Limit of a sum. min(sum, limit) does not depend on the order of what is added either.
+/// Limit of a sum. min(sum, limit) does not depend on the order of additions.
 inline constexpr std::uint64_t kMostSplatSum = std::uint64_t{1} << 63;
 
-/// Splats of one work unit. A thread keeps one for all of its units: memory is reused.
+/// Splats of one work unit. Each thread reuses one log, and its memory, for all units.
 class SplatLog {
   public:
     struct Entry {
@@ -66,15 +68,15 @@ class SplatLog {
         SplatMoments moments;
     };
 
-    /// Empties it.
+    /// Empties the log.
     void begin(const SplatShape& shape);
-    /// Adds a splat of a path with this sample number, or of the chain with this number, which says its half; `bits`
-    /// are of the keyed generator, for stochastic rounding. Not all zero splats need be added.
+    /// Adds a splat. `sample`: index of the path's sample, or of the chain, which selects the half; `bits`: keyed
+    /// random numbers for stochastic rounding. Zero splats may be left out.
     void add(std::uint32_t pixel, std::uint32_t sample, const Rgb& value, const Draw& bits);
-    /// The end of a chain: what is added from here on is another's. Squares of batch means (docs/design/error.md,
+    /// Ends a chain: later splats belong to another one. Squares are those of batch means (docs/design/error.md,
     /// "splats").
     void end_chain();
-    /// What was added, one entry per slot, in their order; ends a chain.
+    /// The splats, one entry per slot, in order of slots; ends a chain.
     std::span<const Entry> summed();
     bool empty() const { return all_.entries.empty() && chain_.entries.empty() && caps_ == SplatCaps{}; }
     const SplatCaps& caps() const { return caps_; }
@@ -83,7 +85,7 @@ class SplatLog {
     struct SummedEntries {
         std::vector<Entry> entries;
         std::size_t summed = 0;        ///< entries before this one are in order, one per slot
-        std::size_t summing_size = 0;  ///< entries from which on they are summed up
+        std::size_t summing_size = 0;  ///< number of entries that triggers summing
 
         void clear();
         void push(const Entry& entry);
@@ -92,11 +94,11 @@ class SplatLog {
 
     SplatShape shape_;
     double per_value_ = 1;
-    SummedEntries all_, chain_;  ///< the chain at hand has sums alone
+    SummedEntries all_, chain_;  ///< the current chain has sums only
     SplatCaps caps_;
 };
 
-/// Sums over the film of one pass, 96 bytes a pixel.
+/// Splat sums over the film of one pass, 96 bytes per pixel.
 class SplatSums {
   public:
     SplatSums() = default;  ///< of a pass without splats: no memory
@@ -105,25 +107,25 @@ class SplatSums {
     const SplatShape& shape() const { return shape_; }
     const SplatMoments& at(std::size_t pixel, std::size_t half) const { return moments_[2 * pixel + half]; }
     const SplatCaps& caps() const { return caps_; }
-    /// Sums that have reached their limit: each makes a pixel too dark. Counted when asked for.
+    /// Number of sums at their limit, each of which makes a pixel too dark. Counted by this call.
     std::uint64_t saturated() const;
 
-    /// Throws RunError for a pixel beyond the film, before anything is added.
+    /// Adds entries. Throws RunError for a pixel outside the film, before any change.
     void add(std::span<const SplatLog::Entry> entries, const SplatCaps& caps);
     void clear();
 
-    /// Sparse form: pixels that were touched (docs/design/protocol.md, "splats").
+    /// Sparse form: pixels with splats (docs/design/protocol.md, "splats").
     Bytes encode() const;
-    /// Throws FormatError for what encode() cannot have written for this film.
+    /// Throws FormatError unless encode() of this film can have written the bytes.
     void check(std::span<const std::uint8_t> encoded) const;
-    /// Adds an encoded part. Checks all of it before anything is added.
+    /// Adds an encoded part after check().
     void merge_encoded(std::span<const std::uint8_t> encoded);
 
     bool operator==(const SplatSums&) const = default;
 
   private:
     SplatShape shape_;
-    std::vector<SplatMoments> moments_;  ///< by slot
+    std::vector<SplatMoments> moments_;  ///< two per pixel, by SplatLog::Entry::slot
     SplatCaps caps_;
 };
 

@@ -7,7 +7,7 @@
 namespace treefarm {
 namespace {
 
-/// 64 bits hold almost 2^29 pixels of the largest variance there is.
+/// Unit of the sums: 64 bits hold almost 2^29 pixels of the largest variance.
 constexpr double kUnitsPerOne = 4096;
 
 std::uint64_t in_units(double value) {

@@ -5,17 +5,17 @@
 
 namespace treefarm {
 
-/// Whether splitting paths pays, measured by the render itself: a path that was split also knows what it would have
-/// carried alone, so each camera path is two samples of its pixel, with split paths and without. Told apart by the same
-/// paths, the two differ in nothing but the splitting, and a few samples tell.
+/// Measurement, by the render itself, of whether splitting of paths pays: a split path also gives the value that it
+/// would have had alone, so each camera path is two samples of its pixel, split and unsplit. Both come from the same
+/// paths and differ only by the splitting, so a few samples suffice.
 
 /// Samples of a pixel, each of them split and unsplit.
 class PairedSamples {
   public:
-    /// Luminances, at any common scale that does not depend on them; those that are none are left out, larger ones than
-    /// kMost taken for it.
+    /// Adds a sample. Luminances are in any common scale that does not depend on them; NaN and infinity are skipped,
+    /// and larger values than kMost are reduced to it.
     void add(double split, double unsplit);
-    /// Adds what the samples tell to `sums`, in whole units, and forgets them.
+    /// Adds the pixel's results to `sums`, in whole units, and resets them.
     void finish(SplittingSums& sums);
 
     static constexpr double kMost = 4096;
@@ -29,12 +29,12 @@ class PairedSamples {
     Sums split_, unsplit_;
 };
 
-/// Gain by splitting, of the guided samples of a pass that may split.
+/// Gain by splitting, from the guided samples of a pass that may split.
 struct SplittingGain {
-    double variance = 0;  ///< of unsplit samples over that of split ones; 0: not known
-    double rays = 0;      ///< of split samples over those of unsplit ones
-    /// Mean of the unsplit samples over that of the split ones, which is 1 but for chance. Where it is low unsplit
-    /// samples have missed rare light, and nobody knows how noisy they are.
+    double variance = 0;  ///< variance of unsplit samples over that of split ones; 0: unknown
+    double rays = 0;      ///< rays of split samples over those of unsplit ones
+    /// Mean of the unsplit samples over that of the split ones: 1, except for chance. If it is low, unsplit samples
+    /// have missed rare light, and their noise is unknown.
     double mean_ratio = 0;
 };
 SplittingGain splitting_gain(const TraceStats& stats);

@@ -7,7 +7,7 @@
 
 namespace treefarm {
 
-/// Mean without the largest thousandth. Not of nothing.
+/// Mean without the largest thousandth of the values, which must not be empty.
 inline double trimmed_mean(std::vector<double> values) {
     const std::size_t kept = values.size() - values.size() / 1000;
     const auto end = values.begin() + static_cast<std::ptrdiff_t>(kept);

@@ -8,7 +8,7 @@
 namespace treefarm {
 namespace {
 
-/// The density at the middles of 4 by 4 parts of each square, averaged.
+/// Density on a grid of 2^bits by 2^bits squares, each the mean over the centres of its 4 by 4 parts.
 template <class Sampler>
 std::vector<float> sampled_map(const Sampler& guide, std::uint32_t region, int bits) {
     constexpr std::uint32_t kParts = 4;
@@ -148,8 +148,8 @@ AnyAccumulator::AnyAccumulator(std::uint32_t pass, const AnySampler& guide, Dire
 
 namespace {
 
-/// Calls use(accumulator) for the one that there is. The result is named: clang 14 breaks down where it has to deduce
-/// it.
+/// Calls use(accumulator) for the accumulator that is set. The result type is explicit, since clang 14 crashes where it
+/// has to deduce it.
 template <class Result, class Accumulators, class Use>
 Result with_accumulator(Accumulators& accumulators, Use use) {
     return std::visit(

@@ -9,7 +9,7 @@
 
 namespace treefarm {
 
-/// The guide that a model or a sampler belongs to.
+/// Maps a model or sampler type to its guide.
 template <class Part, class List>
 struct GuideOfPart;
 template <class Part, class First, class... Rest>
@@ -22,7 +22,7 @@ struct GuideOfPart<Part, GuideList<First, Rest...>> {
 template <class Part>
 using GuideOf = typename GuideOfPart<std::remove_cvref_t<Part>, Guides>::type;
 
-/// Calls visit.operator()<G>() for the guide of a kind; RunError if there is none.
+/// Calls visit.operator()<G>() for the guide of this kind. Throws RunError if there is none.
 template <class Visit>
 void with_guide(GuideKind kind, Visit visit) {
     int index = 0;
@@ -34,7 +34,7 @@ void with_guide(GuideKind kind, Visit visit) {
     if (!found) throw RunError("the program has no such guide");
 }
 
-/// A model of any guide, for all that need not know which.
+/// A model of any guide, for code that does not depend on which.
 class AnyModel {
   public:
     AnyModel() = default;
@@ -43,7 +43,8 @@ class AnyModel {
     AnyModel(M&& model) : model_(std::forward<M>(model)) {}
 
     static AnyModel first(GuideKind kind, const Box3& bounds, const FirstModel& settings);
-    /// By the guide whose magic the bytes begin with; FormatError if there is none, or they are not a model of it.
+    /// Decodes a model of the guide whose magic number the bytes begin with. Throws FormatError for unknown guides and
+    /// malformed bytes.
     static AnyModel decode(std::span<const std::uint8_t> bytes);
     Bytes encode() const;
 
@@ -51,35 +52,37 @@ class AnyModel {
     const RegionModel& regions() const;
     bool trained() const { return regions().trained; }
     void set_pass(std::uint32_t pass);
-    /// Lets next event learn how to choose emitters, from a choice by power on where it has not, or forgets that.
+    /// Switches learning of emitter choice in next event on, starting with choice by power where nothing is learned, or
+    /// off, which forgets what was learned.
     void set_learns_lights(bool learns);
-    /// Lets next event be decided by region, from always on where it was not, or forgets that.
+    /// Switches decisions on next event per region on, starting with one sample per vertex, or off, which forgets them.
     void set_decides_next_event(bool decides);
     void set_image(ImageFacts image);
     ModelFigures figures() const;
-    /// About the bytes of the form that workers sample from.
+    /// Approximate bytes of the form that workers sample from.
     SamplerCost cost() const;
     bool grows() const;
 
-    /// Shape of the sums of a pass over the model; `with_mixture`: it learns mixtures.
+    /// Shape of the sums of a pass over the model. `with_mixture`: the pass records mixture histograms.
     SumsShape sums_shape(bool with_mixture) const;
 
-    // What inspection shows: of a guide's own where it has such functions, else of its size and its sampler.
+    // For inspection: functions of the guide where it has them, otherwise derived from its size and its sampler.
 
-    /// Figures of the model; `encoded_bytes` as it is sent and stored.
+    /// Statistics of the model. `encoded_bytes`: its size as sent and stored.
     TreeStatistics statistics(std::uint64_t encoded_bytes) const;
-    /// Cells that each region answers for.
+    /// Number of cells per region.
     std::vector<double> cells_by_region() const;
-    /// A distribution over directions averaged over the squares of a grid of 2^bits by 2^bits on the direction square
-    /// (direction_map.h), in row order from v = 0: per steradian, so that the mean is 1 / (4 pi).
+    /// Mean density of a distribution over directions, per square of a grid of 2^bits by 2^bits squares of the
+    /// direction square (direction_map.h), in row order from v = 0. Per steradian, so the mean over squares is 1 / (4
+    /// pi).
     std::vector<float> density_map(std::uint32_t distribution, int bits) const;
 
-    /// The model, if it is one of this kind.
+    /// The model if it is of type M, else nullptr.
     template <class M>
     const M* get_if() const {
         return std::get_if<M>(&model_);
     }
-    /// Calls visit.operator()<G>(model) for the model's guide.
+    /// Calls visit.operator()<G>(model) with the model's guide G.
     template <class Visit>
     decltype(auto) visit(Visit visit) const {
         return std::visit([&]<class M>(const M& model) { return visit.template operator()<GuideOf<M>>(model); },
@@ -103,7 +106,7 @@ class AnySampler {
     const RegionSampler& regions() const {
         return std::visit([](const RegionSampler& regions) -> const RegionSampler& { return regions; }, sampler_);
     }
-    /// The sampler, which is one of this type.
+    /// The sampler, which must be of type S.
     template <class S>
     const S& get() const {
         if constexpr (std::is_same_v<S, RegionSampler>)
@@ -111,7 +114,7 @@ class AnySampler {
         else
             return std::get<S>(sampler_);
     }
-    /// Calls visit.operator()<G>(sampler) for the sampler's guide.
+    /// Calls visit.operator()<G>(sampler) with the sampler's guide G.
     template <class Visit>
     decltype(auto) visit(Visit visit) const {
         return std::visit([&]<class S>(const S& sampler) { return visit.template operator()<GuideOf<S>>(sampler); },
@@ -122,7 +125,7 @@ class AnySampler {
     Guides::Samplers sampler_;
 };
 
-/// What adds the records of finished work by the cells of any guide (CellAccumulator).
+/// Accumulator of records by cell, for any guide (CellAccumulator).
 class AnyAccumulator {
   public:
     AnyAccumulator(std::uint32_t pass, const AnySampler& guide, DirectionalFilter filter, bool with_mixture);
@@ -136,15 +139,15 @@ class AnyAccumulator {
     Guides::Accumulators accumulator_;
 };
 
-/// The coordinator's memory of what any guide has learned: the way from what a pass recorded to the model that guides
-/// the next one. Pure but for that memory.
+/// Learner of any guide on the coordinator: turns the records of a pass into the model that guides the next. Pure,
+/// except for its memory of earlier passes.
 class AnyLearner {
   public:
-    /// `learn_mixture`: the pass recorded histograms.
+    /// `learn_mixture`: the pass recorded mixture histograms.
     AnyModel learn(const AnyModel& model, const CellSums& sums, const RefineSettings& settings, bool learn_mixture,
                    RefineReport& report);
 
-    /// Lists what it remembers, for a checkpoint.
+    /// Archives the state, for a checkpoint.
     template <class Archive>
     void serialize(Archive& archive) {
         auto kind = static_cast<std::uint8_t>(learner_.index());
@@ -154,7 +157,7 @@ class AnyLearner {
     }
 
   private:
-    /// Begins anew as the learner of a guide; FormatError if there is no such guide.
+    /// Becomes an empty learner of the guide with this number. Throws FormatError if there is none.
     void forget(std::uint8_t kind);
 
     Guides::Learners learner_;

@@ -11,41 +11,42 @@
 
 namespace treefarm {
 
-/// What makes a guide (docs/use/write-a-guide.md). Its model is a RegionModel with plain values of its own, frozen for
-/// a pass. Its sampler, flat and immutable, is built from a decoded model alone, so that what is rounded for the wire
-/// is rounded for everybody, and has cells (cell_accumulator.h). Its learner is what the coordinator remembers of
-/// earlier passes, and lists that for checkpoints: serialize().
+/// Requirements of a guide (docs/use/write-a-guide.md). The model is a RegionModel with further plain values, fixed
+/// during a pass. The sampler, flat and immutable, is built from a decoded model only, so that rounding for the wire
+/// affects all processes equally; it has cells (cell_accumulator.h). The learner is the coordinator's memory of earlier
+/// passes and archives itself for checkpoints: serialize().
 template <class G>
 concept Guide = std::derived_from<typename G::Model, RegionModel> &&
     std::derived_from<typename G::Sampler, RegionSampler> &&
     requires(const typename G::Model& model, typename G::Learner learner, const CellSums& sums, RefineReport report) {
-    /// First four bytes of an encoded model.
+    /// Magic number: first four bytes of an encoded model.
     { G::kMagic } -> std::convertible_to<std::uint32_t>;
-    /// Whether passes change how many regions and cells there are.
+    /// Whether passes change the number of regions and cells.
     { G::kGrows } -> std::convertible_to<bool>;
-    /// Kernels in worker/guides, and whether some are for plainly diffuse scenes; otherwise those of all surfaces do.
+    /// Number of kernels in worker/guides, and whether some of them are for plainly diffuse scenes only; otherwise the
+    /// general ones are used there.
     { G::kKernels } -> std::convertible_to<int>;
     { G::kPlainKernels } -> std::convertible_to<bool>;
     { G::kCost } -> std::convertible_to<SamplerCost>;
     { G::first(Box3(), FirstModel()) } -> std::same_as<typename G::Model>;
     { G::encode(model) } -> std::same_as<Bytes>;
-    /// Checks every structural rule, and throws FormatError.
+    /// Decodes a model. Checks all structural rules and throws FormatError.
     { G::decode(Bytes()) } -> std::same_as<typename G::Model>;
     { G::figures(model) } -> std::same_as<ModelFigures>;
     { learner.learn(model, sums, RefineSettings(), true, report) } -> std::same_as<typename G::Model>;
     { model == model } -> std::convertible_to<bool>;
     requires std::constructible_from<typename G::Sampler, const typename G::Model&>;
 } && requires(const typename G::Sampler& sampler) {
-    /// A direction drawn in a region, by three uniform numbers.
+    /// A direction drawn in a region from three uniform numbers.
     { sampler.sample(0u, Draw()).pdf } -> std::convertible_to<float>;
-    /// Density per steradian in a region of the direction with this code, and bytes, for reports.
+    /// Density per steradian in a region of the direction with this code; and, for reports, its bytes.
     { sampler.pdf(0u, 0u) } -> std::same_as<float>;
-    /// Mean radiance that a region has learned of such a direction; negative where it has learned nothing.
+    /// Mean radiance that a region has learned for the direction; negative if nothing was learned.
     { sampler.radiance(0u, 0u) } -> std::same_as<float>;
     { sampler.bytes() } -> std::same_as<std::size_t>;
 };
 
-/// Guides, and for each of their parts a type that holds any of them.
+/// List of guides, with a variant type for each of their parts.
 template <Guide... G>
 struct GuideList {
     static constexpr int kKernels = (... + G::kKernels);
@@ -55,14 +56,14 @@ struct GuideList {
     using Learners = std::variant<typename G::Learner...>;
     using Accumulators = std::variant<std::monostate, CellAccumulator<typename G::Sampler>...>;
 
-    /// Calls visit.operator()<G>() for each guide until one returns true; whether one did.
+    /// Calls visit.operator()<G>() for each guide until one call returns true. Returns whether one did.
     template <class Visit>
     static bool find(Visit visit) {
         return (... || visit.template operator()<G>());
     }
 };
 
-/// The guides of the program, in the order of GuideKind. It is a closed set: what differs is chosen once per work unit.
+/// The guides of the program, in the order of GuideKind. The set is closed: the choice is made once per work unit.
 enum class GuideKind : std::uint8_t { sd_tree, grid, qtable };
 using Guides = GuideList<SdTreeGuide, GridGuide, QTableGuide>;
 

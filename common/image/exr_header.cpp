@@ -12,33 +12,33 @@
 #include "common/base/error.h"
 #include "common/image/image.h"
 
-// The layout is that of "OpenEXR File Layout" (openexr.com), checked against files that OpenEXR writes: magic, version
-// and flags; attributes, each a name, a type, a size and so many bytes; an empty name ends a header, an empty header
-// those of several parts; then one offset of eight bytes per chunk of pixels.
+// Layout from "OpenEXR File Layout" (openexr.com), checked against files written by OpenEXR: magic, version and flags;
+// attributes, each with name, type, size and value; an empty name ends a header, an empty header ends the headers of a
+// multi-part file; then one offset of eight bytes per chunk of pixels.
 
 namespace treefarm {
 namespace {
 
-constexpr std::uint64_t kSmallestChunk = 8 + 8 + 1;  ///< its offset, its header and a byte
+constexpr std::uint64_t kSmallestChunk = 8 + 8 + 1;  ///< offset, header and one byte
 constexpr std::uint64_t kLooseTileBytes = std::uint64_t{16} << 20;
 constexpr std::uint32_t kMultiPartFlag = 0x1000;
 
-/// A header's claims, as far as memory depends on them.
+/// Claims of a header that memory depends on.
 struct Claims {
     std::uint64_t width = 0, height = 0;
-    std::uint64_t pixel_bytes = 0;  ///< all channels
+    std::uint64_t pixel_bytes = 0;  ///< bytes of all channels
     std::uint8_t compression = 0;
     std::optional<std::uint64_t> tile_width, tile_height;
 };
 
-/// Lines of pixels in a chunk, by the file's number of the compression.
+/// Scan lines per chunk, by the file's number of the compression.
 std::uint64_t lines_per_chunk(std::uint8_t compression) {
     constexpr std::uint64_t kLines[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
     return compression < std::size(kLines) ? kLines[compression] : 256;
 }
 
-/// Pixel bytes that a byte of the file can stand for, generously: deflate packs at most 1032 into one (a match of 258
-/// bytes takes two bits or more). DWA (8, 9) packs that way what is left of a block of 64 floats, down to four bytes.
+/// Upper bound of the pixel bytes that a byte of the file encodes: deflate packs at most 1032 into one (a match of 258
+/// bytes takes at least two bits). DWA (8, 9) deflates the rest of a block of 64 floats, at least four bytes.
 std::uint64_t most_expansion(std::uint8_t compression) {
     return compression < 8 ? 2 * 1032 : 64 * 1032;
 }
@@ -100,7 +100,7 @@ class HeaderWalk {
         return value;
     }
 
-    /// Walks over a part's header; false for the empty one behind the last part.
+    /// Walks over a part's header; false for the empty one after the last part.
     bool walk_header() {
         Claims claims;
         bool any = false;
@@ -132,7 +132,7 @@ class HeaderWalk {
         return any;
     }
 
-    /// Bytes of types of which OpenEXR reads so many, whatever the attribute's size says.
+    /// Size in bytes of types that OpenEXR reads with a fixed size, whatever the attribute's size says.
     static std::optional<std::uint32_t> fixed_size(std::string_view type) {
         static constexpr std::pair<std::string_view, std::uint32_t> kSizes[] = {{"box2f", 16},
                                                                                 {"box2i", 16},
@@ -163,20 +163,20 @@ class HeaderWalk {
         return std::nullopt;
     }
 
-    /// Whether an attribute's type has lengths of its own inside.
+    /// Whether an attribute's type contains lengths.
     static bool is_parsed(std::string_view type) {
         return type == "chlist" || type == "preview" || type == "stringvector";
     }
 
-    /// Pixels from a box's lower to its upper coordinate, of x at 0 and of y at 4.
+    /// Pixels from a box's lower to its upper coordinate; x is at 0, y at 4.
     static std::uint64_t side(std::string_view box, std::size_t axis) {
         const auto from = static_cast<std::int32_t>(number(box, axis)),
                    to = static_cast<std::int32_t>(number(box, axis + 8));
         return to < from ? 0 : static_cast<std::uint64_t>(std::int64_t{to} - from + 1);
     }
 
-    /// Bytes per pixel of all channels. Each is a name and sixteen bytes that begin with its type: 1 is half, the
-    /// others have four bytes.
+    /// Bytes per pixel of all channels. Each channel is a name and sixteen bytes that begin with its type: 1 is half,
+    /// the others have four bytes.
     std::uint64_t bytes_of_channels(std::string_view list) const {
         std::uint64_t bytes = 0;
         while (!list.empty() && list[0] != '\0') {
@@ -189,7 +189,7 @@ class HeaderWalk {
         return bytes;
     }
 
-    /// Width, height and four bytes per pixel.
+    /// Checks a preview image: width, height and four bytes per pixel.
     void check_preview(std::string_view value) const {
         if (value.size() < 8) refuse_cut();
         const std::uint64_t pixels = std::uint64_t{number(value, 0)} * number(value, 4);

@@ -5,9 +5,9 @@
 
 namespace treefarm {
 
-/// Walks the headers of an OpenEXR file and throws InputError where they claim more than the file's bytes can hold:
-/// attributes, chunks, tiles or pixels. OpenEXR allocates by all of these before it looks for them. Whether the headers
-/// are right otherwise is left to OpenEXR.
+/// Walks the headers of an OpenEXR file. Throws InputError if attributes, chunks, tiles or pixels claim more than the
+/// file's bytes can hold, since OpenEXR allocates by these claims before it checks them. All other checks are left to
+/// OpenEXR.
 void check_exr_header(const std::filesystem::path& path);
 
 }  // namespace treefarm

@@ -77,7 +77,7 @@ void select_channels(const std::filesystem::path& path, const Imf::ChannelList& 
         refuse(path, "holds none of the wanted channels", "check which channels it has (exrheader)");
 }
 
-/// Place of a data window inside the display window; none for one that fills it, or reaches beyond.
+/// Position of a data window inside the display window; none if it fills that window or extends beyond.
 CropWindow crop_of(const Imath::Box2i& data, const Imath::Box2i& display) {
     if (data == display || !display.intersects(data.min) || !display.intersects(data.max)) return {};
     const auto span = [](int low, int high) { return std::int64_t{high} - low; };
@@ -114,10 +114,10 @@ ExrImage read_checked(const std::filesystem::path& path, const std::function<boo
     return result;
 }
 
-/// The result of `read`; what OpenEXR throws becomes an InputError.
+/// The result of `read`; exceptions of OpenEXR become InputError.
 template <class Read>
 auto guarded(const std::filesystem::path& path, Read read) {
-    // OpenEXR keeps these limits per process; they are always the same, and checked before it allocates by the header.
+    // OpenEXR has these limits per process; they are always equal, and are checked before it allocates by the header.
     Imf::Header::setMaxImageSize(kMaxImageSide, kMaxImageSide);
     Imf::Header::setMaxTileSize(kMaxImageSide, kMaxImageSide);
     try {

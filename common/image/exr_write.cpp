@@ -28,7 +28,7 @@ namespace treefarm {
 
 namespace {
 
-/// The file in memory: OpenEXR's destructors swallow errors of a full disk, our own writing does not.
+/// Output file in memory: OpenEXR's destructors swallow errors of a full disk, Treefarm's own writing does not.
 class MemoryStream : public Imf::OStream {
   public:
     explicit MemoryStream(const char* name) : Imf::OStream(name) {}
@@ -66,7 +66,7 @@ std::vector<std::uint32_t> to_uint(std::span<const float> values) {
     return integers;
 }
 
-/// The image's pixels; its place in the whole.
+/// Data window of an image: its pixels at their position in the whole.
 Imath::Box2i window_of(const Image& image) {
     return {{image.crop.x, image.crop.y}, {image.crop.x + image.width - 1, image.crop.y + image.height - 1}};
 }
@@ -91,7 +91,7 @@ void check_names(const std::filesystem::path& path, const Image& image) {
             throw RunError(path.string() + ": channel '" + name + "' has no name or occurs twice");
 }
 
-/// OpenEXR has one pool for all files, without threads to begin with.
+/// Number of threads of OpenEXR's pool, which all files share and which has none by default.
 int compression_threads() {
     const auto threads = static_cast<int>(sweeping_threads());
     if (Imf::globalThreadCount() < threads) Imf::setGlobalThreadCount(threads);
@@ -102,8 +102,8 @@ Imf::PixelType stored_as(PixelType type) {
     return type == PixelType::half ? Imf::HALF : type == PixelType::uint32 ? Imf::UINT : Imf::FLOAT;
 }
 
-/// OpenEXR's name of a compression. What is best by itself depends on the channels: floats with noise hardly shrink, by
-/// ZIP little more than by RLE, in five times the time.
+/// OpenEXR's name of a compression. `automatic` depends on the channels: noisy floats hardly shrink, with ZIP little
+/// more than with RLE and in five times the time.
 Imf::Compression packed_by(ExrCompression compression, const std::vector<PixelType>& types) {
     switch (compression) {
         case ExrCompression::none:
@@ -124,7 +124,7 @@ Imf::Compression packed_by(ExrCompression compression, const std::vector<PixelTy
     return all_floats ? Imf::RLE_COMPRESSION : Imf::ZIP_COMPRESSION;
 }
 
-/// Channels in the types that the file stores, where OpenEXR finds them.
+/// Channels converted to the types of the file, in the layout that OpenEXR reads.
 class StoredPixels {
   public:
     void insert(const Image& image, std::size_t c, PixelType type) {
@@ -144,7 +144,7 @@ class StoredPixels {
         constexpr Imf::PixelType type = std::is_same_v<T, half>    ? Imf::HALF
                                         : std::is_same_v<T, float> ? Imf::FLOAT
                                                                    : Imf::UINT;
-        // FrameBuffer serves reading and writing and takes no pointer to const; writing leaves the pixels alone.
+        // FrameBuffer serves reading and writing and takes no pointer to const; writing does not change the pixels.
         buffer_.insert(image.channel_names[c],
                        Imf::Slice::Make(type, const_cast<T*>(values), window_of(image), sizeof(T),
                                         sizeof(T) * static_cast<std::size_t>(image.width)));

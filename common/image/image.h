@@ -12,24 +12,23 @@
 
 namespace treefarm {
 
-/// Longest side of an image that is read, and most values (pixels x channels): a damaged or hostile header must not
-/// exhaust the memory.
+/// Limits of images that are read, longest side and number of values (pixels x channels), so that a damaged or hostile
+/// header does not exhaust the memory.
 inline constexpr int kMaxImageSide = 65536;
 inline constexpr std::size_t kMaxImageValues = std::size_t{1} << 30;
 
-/// Any number of named channels over one raster, as an EXR file holds them: "R", "G", "B", "variance.R", "albedo.G",
-/// ...
+/// Image with any number of named channels, as in an EXR file: "R", "G", "B", "variance.R", "albedo.G", ...
 struct Image {
     int width = 0;   ///< pixels
     int height = 0;  ///< pixels
     std::vector<std::string> channel_names;
-    /// Planar: channel by channel in the order of `channel_names`, each row by row from the top.
+    /// Values in planes: channel by channel in the order of `channel_names`, each row by row from the top.
     std::vector<float> data;
-    CropWindow crop{};  ///< the EXR file's data window inside its display window
+    CropWindow crop{};  ///< position of the EXR file's data window inside its display window
 
     std::size_t pixel_count() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 
-    /// Index of a channel, if there is one of that name.
+    /// Index of the channel of this name; empty if there is none.
     std::optional<std::size_t> find(const std::string& name) const;
 
     std::span<const float> channel(std::size_t index) const {
@@ -39,12 +38,12 @@ struct Image {
         return std::span(data).subspan(index * pixel_count(), pixel_count());
     }
 
-    /// Appends a channel of zeros (width and height must be set) and returns its pixels. Spans that were handed out
-    /// before are no longer valid.
+    /// Appends a channel of zeros (width and height must be set) and returns its pixels. Invalidates spans returned
+    /// before.
     std::span<float> add_channel(const std::string& name);
 };
 
-/// Linear colours (Rec. 709 primaries), row by row from the top.
+/// Image of linear colours (Rec. 709 primaries), row by row from the top.
 struct RgbImage {
     int width = 0;   ///< pixels
     int height = 0;  ///< pixels
@@ -55,16 +54,17 @@ struct RgbImage {
         : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), fill) {}
 };
 
-/// The pixels of an image at `place`, of `width` x `height`.
+/// The pixels of a crop window of `width` x `height`.
 RgbImage cut_out(const RgbImage& image, const CropWindow& crop, int width, int height);
 
-/// "R" for the layer "", "variance.R" for the layer "variance".
+/// Name of a channel: "R" for the layer "", "variance.R" for the layer "variance".
 std::string channel_name(const std::string& layer, const std::string& component);
 
-/// The channels R, G and B of a layer, or its single channel Y as grey; nothing if the image has neither.
+/// The channels R, G and B of a layer, or its single channel Y as grey; empty if the image has neither.
 std::optional<RgbImage> rgb_layer(const Image& image, const std::string& layer = "");
 
-/// Appends the channels R, G and B of a layer. An image without size takes that of `rgb`; otherwise they must agree.
+/// Appends the channels R, G and B of a layer. An image without size takes that of `rgb`; otherwise the sizes must be
+/// equal.
 void add_rgb_layer(Image& image, const std::string& layer, const RgbImage& rgb);
 
 }  // namespace treefarm

@@ -26,7 +26,8 @@ void append_chunk(Bytes& file, std::string_view kind, std::span<const std::uint8
                 static_cast<std::uint32_t>(crc32_z(crc32_z(0, nullptr, 0), file.data() + begin, file.size() - begin)));
 }
 
-/// Rows, each as its difference to the one above: a rendered image has few other regularities, and none costs less.
+/// Rows, each as the difference from the one above: rendered images have few other regularities, and no filter is
+/// cheaper.
 Bytes filtered(std::size_t row_bytes, std::span<const std::uint8_t> rgb) {
     constexpr std::uint8_t kUp = 2;
     const std::size_t rows = rgb.size() / row_bytes;
@@ -44,7 +45,8 @@ Bytes filtered(std::size_t row_bytes, std::span<const std::uint8_t> rgb) {
     return lines;
 }
 
-/// Lines packed by runs and Huffman codes alone: searching noise for repetitions takes twice the time and finds none.
+/// Rows compressed by runs and Huffman codes only: a search for repetitions in noise takes twice the time and finds
+/// none.
 Bytes deflated(Bytes& lines) {
     z_stream stream{};
     if (deflateInit2(&stream, 1, Z_DEFLATED, 15, 9, Z_RLE) != Z_OK) return {};

@@ -7,8 +7,8 @@
 
 namespace treefarm {
 
-/// A PNG file of 8-bit RGB triples, row by row; empty if size and data do not agree or memory runs out. Fast rather
-/// than small; stb_image_write is slower, and its files are larger (bench/log/speed.md, "how long does a PNG take to
+/// PNG file of 8-bit RGB triples, row by row; empty if size and data disagree or memory runs out. Optimised for speed,
+/// not size; stb_image_write is slower, and its files are larger (bench/log/speed.md, "how long does a PNG take to
 /// write").
 std::vector<std::uint8_t> encode_png(int width, int height, std::span<const std::uint8_t> rgb);
 

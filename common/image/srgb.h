@@ -5,7 +5,7 @@
 
 namespace treefarm {
 
-/// sRGB's transfer function and its inverse (IEC 61966-2-1), on [0, 1].
+/// The sRGB transfer function and its inverse (IEC 61966-2-1), on [0, 1].
 inline float srgb_encode(float linear) {
     return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
 }

@@ -8,15 +8,15 @@
 
 namespace treefarm {
 
-/// The equal-area octahedral map between unit directions and the unit square (Clarberg 2008, "Fast equal-area mapping
-/// of the (hemi)sphere using SIMD"). A density p on the square is p / (4 pi) per steradian. Half the cost of the
-/// cylindrical map of the authors' program, without its stretched poles.
+/// The equal-area octahedral map from unit directions to the unit square (Clarberg 2008, "Fast equal-area mapping of
+/// the (hemi)sphere using SIMD"). A density p on the square is p / (4 pi) per steradian. It takes half the time of the
+/// cylindrical map of the authors' program and has no stretched poles.
 inline Vec2 direction_to_square(const Vec3& d) {
     const float ax = std::abs(d.x), ay = std::abs(d.y), az = std::abs(d.z);
     const float r =
-        std::sqrt((ax * ax + ay * ay) / (1.0f + az));  // = sqrt(1 - |z|), without its cancellation at the poles
+        std::sqrt((ax * ax + ay * ay) / (1.0f + az));  // equals sqrt(1 - |z|), without cancellation near the poles
     const float high = std::max(ax, ay), low = std::min(ax, ay);
-    // Angle from the x axis, 0..1 for 0..90 degrees.
+    // Angle from the x axis; 0..1 stands for 0..90 degrees.
     float phi = atan_quadrant(low / std::max(high, kLeastNormal));
     phi = select(ay > ax, 1.0f - phi, phi);
     const float along = phi * r, across = r - along;
@@ -34,15 +34,16 @@ inline Vec3 square_to_direction(const Vec2& p) {
     const float signed_distance = 1.0f - (au + av);
     const float distance = std::abs(signed_distance);
     const float r = 1.0f - distance;
-    const float phi = ((av - au) / std::max(r, kLeastNormal) + 1.0f) * (0.5f * kPi * 0.5f);  // of no matter at the pole
+    const float phi =
+        ((av - au) / std::max(r, kLeastNormal) + 1.0f) * (0.5f * kPi * 0.5f);  // any value will do at the pole
     const float z = std::copysign(1.0f - r * r, signed_distance);
     const SinCos a = sincos_quadrant(std::clamp(phi, 0.0f, 0.5f * kPi));
     const float sin_theta = r * std::sqrt(std::max(0.0f, 2.0f - r * r));
     return {std::copysign(a.cos * sin_theta, u), std::copysign(a.sin * sin_theta, v), z};
 }
 
-/// The unit square in 2^16 x 2^16 steps along the Z-order curve: quadtree cells of depth d are aligned ranges of
-/// 4^(16-d).
+/// Bits per coordinate of a direction code: the unit square in 2^16 x 2^16 steps along the Z-order curve. A quadtree
+/// cell of depth d is an aligned range of 4^(16-d) codes.
 inline constexpr int kDirectionBits = 16;
 
 inline std::uint32_t spread_bits(std::uint32_t v) {

@@ -7,42 +7,43 @@
 
 namespace treefarm {
 
-/// condition ? a : b, without the branch that the compiler likes to make of it: for conditions that nothing predicts.
+/// Equals condition ? a : b, compiled without a branch: for conditions that cannot be predicted.
 inline float select(bool condition, float a, float b) {
     const std::uint32_t mask = 0u - static_cast<std::uint32_t>(condition);
     return std::bit_cast<float>((std::bit_cast<std::uint32_t>(a) & mask) | (std::bit_cast<std::uint32_t>(b) & ~mask));
 }
 
-/// -x if the condition holds, x otherwise.
+/// Equals -x if the condition holds, else x.
 inline float negate_if(bool condition, float x) {
     return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) ^ (static_cast<std::uint32_t>(condition) << 31));
 }
 
-/// Our own elementary functions for whatever decides a path: the C library picks its code by CPU, so the same call may
-/// round differently on two machines (docs/design/architecture.md, "same bits"). Polynomials in plain float operations
-/// do not.
+/// Elementary functions for all values that influence a path. The C library chooses its code by CPU, so the same call
+/// may round differently on two machines (docs/design/architecture.md, "same bits"); polynomials in plain float
+/// operations do not.
 
-/// The least normal float. As the least divisor of what is 0 wherever the divisor is, it costs no branch and no 0/0.
+/// The smallest normal float. As a lower bound of a divisor it avoids 0/0 without a branch, where the numerator is 0
+/// whenever the divisor is.
 inline constexpr float kLeastNormal = 0x1p-126f;
 
-/// 2^exponent for exponents of -126 to 127.
+/// Power 2^exponent for exponents of -126 to 127.
 inline float power_of_two(int exponent) {
     return std::bit_cast<float>(static_cast<std::uint32_t>(127 + exponent) << 23);
 }
 
-/// 2^exponent for exponents of -1022 to 1023: scaling a float by it is exact.
+/// Power 2^exponent for exponents of -1022 to 1023; scaling a float by it is exact.
 inline double exact_power_of_two(int exponent) {
     return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
 }
 
-/// sin and cos of x in [0, pi/2], error below 2e-7.
+/// Sine and cosine of x in [0, pi/2], error below 2e-7.
 struct SinCos {
     float sin, cos;
 };
 
 inline SinCos sincos_quadrant(float x) {
     constexpr float kHalfPi = 1.57079632679489661923f;
-    const bool fold = x > 0.5f * kHalfPi;  // evaluate on [0, pi/4] only
+    const bool fold = x > 0.5f * kHalfPi;  // evaluated on [0, pi/4] only
     const float t = select(fold, kHalfPi - x, x);
     const float t2 = t * t;
     const float s =
@@ -51,7 +52,7 @@ inline SinCos sincos_quadrant(float x) {
     return {select(fold, c, s), select(fold, s, c)};
 }
 
-/// sin and cos of 2 pi u for u in [0, 1].
+/// Sine and cosine of 2 pi u for u in [0, 1].
 inline SinCos sincos_turn(float u) {
     const float quarter = u * 4.0f;
     const int quadrant = static_cast<int>(quarter);
@@ -61,7 +62,7 @@ inline SinCos sincos_turn(float u) {
             negate_if((quadrant + 1) & 2, select(odd, r.sin, r.cos))};
 }
 
-/// atan(x) * 2/pi for x in [0, 1], error below 3e-8 (own minimax fit).
+/// Arc tangent atan(x) * 2/pi for x in [0, 1], error below 3e-8 (minimax fit).
 inline float atan_quadrant(float x) {
     const float x2 = x * x;
     return x * (0.63661935f +
@@ -72,7 +73,7 @@ inline float atan_quadrant(float x) {
                                         x2 * (-0.0355991094f + x2 * (0.0139211997f + x2 * -0.002581966f)))))));
 }
 
-/// The angle of (x, y) from the x axis over 2 pi, in [0, 1); 0 for (0, 0). Error below 1e-7.
+/// Angle of (x, y) from the x axis, over 2 pi, in [0, 1); 0 for (0, 0). Error below 1e-7.
 inline float azimuth_turn(float x, float y) {
     const float ax = std::abs(x), ay = std::abs(y);
     const bool steep = !(ax > ay);
@@ -85,7 +86,7 @@ inline float azimuth_turn(float x, float y) {
     return turn < 1.0f ? turn : 0.0f;
 }
 
-/// acos(x) / pi for x in [-1, 1] (bounded to it), without the cancellation near the ends that `1 - x` cannot carry.
+/// Arc cosine acos(x) / pi for x clamped to [-1, 1], without the cancellation of `1 - x` near the ends.
 inline float acos_half_turn(float x) {
     if (!(x > -1.0f)) return 1.0f;
     if (!(x < 1.0f)) return 0.0f;

@@ -8,7 +8,7 @@
 
 namespace treefarm {
 
-/// exp(-x) for x >= 0, relative error below 3e-7 (see elementary.h for why it is our own). Exactly 0 from 87 on.
+/// Exponential exp(-x) for x >= 0, relative error below 3e-7 (reason: elementary.h). Exactly 0 from 87 on.
 inline float exp_negative(float x) {
     if (!(x < 87.0f)) return 0.0f;
     // 2^-n e^-r with |r| <= ln 2 / 2; ln 2 is split so that n times its first part is exact.
@@ -21,13 +21,13 @@ inline float exp_negative(float x) {
     return p * std::bit_cast<float>(exponent << 23);
 }
 
-/// 1 - exp(-x) for x >= 0, without cancellation near 0: relative error below 1e-6.
+/// Difference 1 - exp(-x) for x >= 0, without cancellation near 0: relative error below 1e-6.
 inline float one_minus_exp_negative(float x) {
     if (x < 0.1f) return x * (1.0f - x * (0.5f - x * (1.66666667e-1f - x * (4.16666667e-2f - x * 8.33333333e-3f))));
     return 1.0f - exp_negative(x);
 }
 
-/// -ln(x) for normal x in (0, 1], absolute error below 3e-7 of the larger of 1 and the result.
+/// Logarithm -ln(x) for normal x in (0, 1]; the absolute error is below 3e-7 of the larger of 1 and the result.
 inline float minus_log(float x) {
     // x = 2^e m with m in [sqrt(1/2), sqrt(2)), and ln m = 2 artanh((m - 1) / (m + 1)).
     const auto shifted = std::bit_cast<std::uint32_t>(x) - 0x3f3504f3u;
@@ -39,7 +39,7 @@ inline float minus_log(float x) {
     return -(exponent * 0.69314718055994530942f + log_m);
 }
 
-/// -ln(1 - x) for x in [0, 1 - 2^-24], relative error below 1e-6.
+/// Logarithm -ln(1 - x) for x in [0, 1 - 2^-24], relative error below 1e-6.
 inline float minus_log_one_minus(float x) {
     if (x < 0.03f)
         return x * (1.0f + x * (0.5f + x * (3.33333333e-1f + x * (0.25f + x * (0.2f + x * 1.66666667e-1f)))));
@@ -51,7 +51,8 @@ inline constexpr std::array<float, 11> kErfcScaled = {
     -0.05379316585f, 0.146803245f,  -0.2430417313f, 0.143841069f,  -0.02986862843f,
 };
 
-/// exp(x^2) erfc(x) for x >= 0, relative error below 3e-7: t P(t) with t = 1 / (1 + 0.4 x), own fit at Chebyshev nodes.
+/// Scaled complementary error function exp(x^2) erfc(x) for x >= 0, relative error below 3e-7: t P(t) with t = 1 / (1 +
+/// 0.4 x), fitted at Chebyshev nodes.
 inline float erfc_scaled(float x) {
     const float t = 1.0f / (1.0f + 0.4f * x);
     float p = kErfcScaled.back();

@@ -5,7 +5,7 @@
 
 namespace treefarm {
 
-/// Adds a value to a sum, which stays at the largest number that there is; whether it fitted.
+/// Adds a value to a sum, limited to the largest integer. Returns whether the sum fitted.
 inline bool add_saturating(std::uint64_t& sum, std::uint64_t value) {
     const bool fits = value <= ~sum;
     sum = fits ? sum + value : ~std::uint64_t{0};

@@ -16,7 +16,7 @@
 namespace treefarm {
 
 using Vec2 = Imath::V2f;
-using Vec3 = Imath::V3f;  ///< a point, a direction or a normal; row vectors, as Imath has them
+using Vec3 = Imath::V3f;  ///< a point, a direction or a normal; a row vector, as in Imath
 using Box3 = Imath::Box3f;
 using Rgb = Imath::C3f;  ///< linear Rec. 709 primaries
 
@@ -41,12 +41,13 @@ inline float max_component(const Rgb& c) {
     return std::max(c.x, std::max(c.y, c.z));
 }
 
-/// Mean of the channels, which the trees learn from, as in the authors' program (a luminance would starve blue light).
+/// Mean of the channels: the quantity that guides learn from, as in the authors' program (luminance would starve blue
+/// light).
 inline float average(const Rgb& c) {
     return (c.x + c.y + c.z) * (1.0f / 3.0f);
 }
 
-/// Luminance Y of linear Rec. 709 (ITU-R BT.709): the measure of every reported variance.
+/// Luminance Y of linear Rec. 709 (ITU-R BT.709); all reported variances are variances of Y.
 template <class T>
 T luminance(const Imath::Color3<T>& c) {
     return T(0.212671) * c.x + T(0.715160) * c.y + T(0.072169) * c.z;

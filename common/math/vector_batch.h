@@ -10,7 +10,7 @@
 
 namespace treefarm {
 
-/// Directions or points of many paths, coordinate by coordinate.
+/// Directions or points of a batch of paths, by coordinate.
 struct VectorBatch {
     alignas(64) std::array<float, kDrawBatch> x, y, z;
 
@@ -22,7 +22,7 @@ struct VectorBatch {
     }
 };
 
-/// How many of a batch are worked on where the first `count` are asked for. What the others hold is anything.
+/// `count` rounded up to whole vector registers: the entries that are computed. Those from `count` on are undefined.
 inline std::uint32_t whole_lanes(std::uint32_t count) {
     if constexpr (kTrapsFloats) return count;
     constexpr std::uint32_t kLanes = 8;

@@ -6,8 +6,7 @@
 
 namespace treefarm {
 
-/// Warps from uniform numbers to shapes; each stands beside its density. tests/statistical/warp_test.cpp holds every
-/// pair against each other.
+/// Warps from uniform numbers to shapes, each beside its density. tests/statistical/warp_test.cpp checks every pair.
 
 /// Uniform point of the unit disk (Shirley and Chiu 1997: concentric squares). Density 1/pi.
 inline Vec2 square_to_disk(const Vec2& u) {
@@ -39,8 +38,8 @@ inline Vec3 square_to_sphere(const Vec2& u) {
     return {r * a.cos, r * a.sin, z};
 }
 
-/// Uniform direction in the cone about +z whose angle's cosine is 1 - one_minus_cos. Density 1/(2 pi one_minus_cos).
-/// The cone is given by 1 - cos because a small cone's cosine rounds to 1.
+/// Uniform direction in a cone about +z, given as 1 - cos(half angle), since the cosine of a small cone rounds to 1.
+/// Density 1/(2 pi one_minus_cos).
 inline Vec3 square_to_cone(const Vec2& u, float one_minus_cos) {
     const float h = u.x * one_minus_cos;  // 1 - cos(theta)
     const float r = std::sqrt(std::max(0.0f, h * (2.0f - h)));

@@ -12,7 +12,7 @@ namespace treefarm {
 
 namespace {
 
-/// Keeps the relative metrics finite where the reference is black; the value the literature uses with relMSE.
+/// Offset that keeps relative errors finite where the reference is black; the usual value for relMSE.
 constexpr double kEpsilon = 0.01;
 constexpr std::size_t kTrimOneIn = 1000;
 constexpr double kOutlierMedians = 100.0;
@@ -83,7 +83,8 @@ std::vector<double> relative_errors(const std::vector<PixelPair>& pairs) {
     return errors;
 }
 
-/// Drops the worst pixels (of equal ones the later), then sums the others in pixel order.
+/// Adds the errors of all pixels but the `trimmed` worst, in pixel order; of equal errors the later pixel is dropped
+/// first.
 void sum_trimmed(const std::vector<PixelPair>& pairs, const std::vector<double>& error, ErrorMetrics& m) {
     std::vector<std::size_t> order(pairs.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

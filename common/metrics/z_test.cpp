@@ -15,20 +15,20 @@ namespace {
 
 using Rgb64 = Imath::Color3<double>;
 
-/// Half of the last place of a half is at most this, relative; below the normal numbers it is absolute. The error of
-/// rounding is uniform, so its variance is a third of its greatest square.
+/// Variance of rounding a value to half. The relative error is at most half a unit in the last place (absolute for
+/// subnormals); it is uniform, so its variance is a third of the square of its maximum.
 double half_rounding_variance(double value) {
     const double greatest = std::max(std::abs(value) * 0x1p-11, 0x1p-25);
     return greatest * greatest / 3.0;
 }
 
-/// Sums of floats: their own rounding is never evidence of a bias.
+/// Variance from rounding sums to float, so that it never counts as a bias.
 double float_rounding_variance(double a, double b) {
     const double greatest = std::max(std::max(std::abs(a), std::abs(b)) * 1e-6, 1e-9);
     return greatest * greatest;
 }
 
-/// Difference of one pixel, the variance of that difference, and the reference.
+/// Difference of one pixel, the variance of that difference, and the reference value.
 struct Difference {
     Rgb64 value, variance, reference;
 };
@@ -37,7 +37,7 @@ bool is_variance(const Rgb& v) {
     return is_valid(v) && v.x >= 0.0f && v.y >= 0.0f && v.z >= 0.0f;
 }
 
-/// The difference of a pixel and its variance; false if the pixel must be left out.
+/// The difference of pixel i and its variance; false if the pixel is to be left out.
 bool difference_at(const ZTestInput& in, std::size_t i, Difference& d) {
     const Rgb a = in.image.pixels[i], b = in.reference.pixels[i];
     const Rgb zero(0.0f);
@@ -97,7 +97,7 @@ struct BlockSum {
         reference += other.reference;
         pixels += other.pixels;
     }
-    /// z of the mean: numerator and denominator are both taken times the number of pixels.
+    /// z of the mean; numerator and denominator both carry a factor of the number of pixels.
     double z(int c, double relative_error) const {
         return difference[c] / std::sqrt(variance[c] + square(relative_error * reference[c]));
     }

@@ -11,8 +11,8 @@
 
 namespace treefarm {
 
-/// cereal archives over ByteWriter and ByteReader: a message lists its fields once, for both directions, and every
-/// count is checked against the bytes that remain before cereal allocates for it.
+/// Output archive of cereal over ByteWriter. A message lists its fields once for both directions. ReadArchive checks
+/// every count against the bytes that remain before cereal allocates for it.
 class WriteArchive : public cereal::OutputArchive<WriteArchive, cereal::AllowEmptyClassElision> {
   public:
     explicit WriteArchive(ByteWriter& writer) : OutputArchive(this), writer_(writer) {}
@@ -51,7 +51,7 @@ inline void CEREAL_LOAD_FUNCTION_NAME(ReadArchive& archive, bool& value) {
     value = byte == 1;
 }
 
-/// Names are for formats that people read.
+/// Field names are only for formats that people read.
 template <class Archive, class T>
 void CEREAL_SERIALIZE_FUNCTION_NAME(Archive& archive, cereal::NameValuePair<T>& pair) {
     archive(pair.value);
@@ -62,7 +62,7 @@ void CEREAL_SAVE_FUNCTION_NAME(WriteArchive& archive, const cereal::SizeTag<T>& 
     archive.writer().put_varint(static_cast<std::uint64_t>(tag.size));
 }
 
-/// An element takes at least one byte, so a count above what remains is a lie.
+/// Number of elements; each takes at least one byte, so a larger count than the bytes that remain is refused.
 template <class T>
 void CEREAL_LOAD_FUNCTION_NAME(ReadArchive& archive, cereal::SizeTag<T>& tag) {
     tag.size = static_cast<std::remove_reference_t<T>>(archive.reader().get_count(1));

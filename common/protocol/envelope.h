@@ -8,35 +8,35 @@
 
 namespace treefarm {
 
-/// Raised whenever a message changes its form: peers of another version are refused, not guessed at.
+/// Version of the protocol, raised whenever a message changes its form; peers of another version are refused.
 inline constexpr std::uint32_t kProtocolVersion = 15;
 
 /// Kind of a message. The numbers are on the wire: append only (docs/design/protocol.md).
 enum class Kind : std::uint8_t {
-    hello = 1,   ///< worker: here I am
-    welcome,     ///< coordinator: your number and the job
-    refuse,      ///< coordinator: not with us, and why
-    chunk,       ///< a piece of the scene or of a tree, with the rest of its way
+    hello = 1,   ///< worker: introduces itself
+    welcome,     ///< coordinator: peer number and job
+    refuse,      ///< coordinator: worker not accepted, with the reason
+    chunk,       ///< a piece of the scene or of a tree, with the rest of its chain
     resend,      ///< worker: a piece is missing
-    pass_begin,  ///< coordinator: the coming pass and the tree that guides it
-    want,        ///< worker: so many more units, please
+    pass_begin,  ///< coordinator: the next pass and the tree that guides it
+    want,        ///< worker: asks for more units
     work,        ///< coordinator: units to trace
     result,      ///< worker: pixels and tree update of finished units
-    heartbeat,   ///< both: alive
-    failure,     ///< worker: cannot go on, and why
-    rejoin,      ///< coordinator: you were thought lost, start anew
+    heartbeat,   ///< both: still alive
+    failure,     ///< worker: cannot continue, with the reason
+    rejoin,      ///< coordinator: the worker was considered lost and must start anew
     quit,        ///< coordinator: stop tracing
     bye,         ///< worker: stopped
     leave,       ///< coordinator: end the process
-    drop,        ///< coordinator: units that others have done meanwhile
+    drop,        ///< coordinator: units that other workers have finished
 };
 inline constexpr Kind kLastKind = Kind::drop;
 
-/// magic[4] version:u32 checksum:u64 length:u64 kind:u8 payload[length]; the checksum (XXH3-64) covers all that follows
-/// it.
+/// Bytes before the payload: magic[4] version:u32 checksum:u64 length:u64 kind:u8; the checksum (XXH3-64) covers the
+/// length and all that follows.
 inline constexpr std::size_t kEnvelopeBytes = 25;
 
-/// Builds a message in place: write the payload into body(), then seal().
+/// Builds a message in place: the payload is written to body(), then seal() completes it.
 class EnvelopeWriter {
   public:
     explicit EnvelopeWriter(Kind kind);
@@ -49,10 +49,10 @@ class EnvelopeWriter {
 
 struct Envelope {
     Kind kind;
-    std::span<const std::uint8_t> payload;  ///< inside the bytes that were opened
+    std::span<const std::uint8_t> payload;  ///< inside the bytes passed to open_envelope()
 };
 
-/// Checks magic, version, length, kind and checksum; FormatError says which one is wrong.
+/// Checks magic, version, length, kind and checksum; FormatError names the one that is wrong.
 Envelope open_envelope(std::span<const std::uint8_t> message);
 
 }  // namespace treefarm

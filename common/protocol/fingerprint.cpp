@@ -32,7 +32,7 @@ std::uint64_t probe_mathematics() {
     return hash_bytes(values.take());
 }
 
-/// Hash of this very program; 0 where the system does not show it.
+/// Hash of this program's file; 0 if the system gives no access.
 std::uint64_t hash_program() {
     const std::filesystem::path self = "/proc/self/exe";
     std::error_code error;
@@ -61,7 +61,7 @@ std::string compiled_for() {
 }  // namespace
 
 Fingerprint own_fingerprint(const std::string& source, const std::string& options, const std::string& embree) {
-    constexpr std::uint32_t kStickyFlags = 0x3f;  // exceptions that happened to occur do not change results
+    constexpr std::uint32_t kStickyFlags = 0x3f;  // exception flags do not influence results
     return {kProgramVersion,    source, options, embree, compiled_for(), hash_program(), _mm_getcsr() & ~kStickyFlags,
             probe_mathematics()};
 }

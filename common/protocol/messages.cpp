@@ -9,7 +9,7 @@
 
 namespace treefarm {
 
-// The fields of each small message, in the order of docs/design/protocol.md.
+// Fields of each small message, in the order of docs/design/protocol.md.
 
 template <class Archive>
 void serialize(Archive& a, Hello& m) {

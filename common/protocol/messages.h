@@ -17,24 +17,24 @@
 
 namespace treefarm {
 
-/// Bounds of what one message may say: more is no message of ours.
+/// Limits of a message's content; anything larger is malformed.
 inline constexpr std::uint32_t kMostThreads = 1u << 16;  ///< of one worker
 inline constexpr std::size_t kMostNameBytes = 1024;      ///< a host's name, a version
 inline constexpr std::size_t kMostTextBytes = 64 << 10;  ///< a reason, a failure
 inline constexpr std::size_t kMostJobBytes = 16 << 20;   ///< a job as text
 
-/// The messages between coordinator and workers (docs/design/protocol.md is the grammar). An incarnation is a random
-/// number that a worker draws when it starts: together with its peer number it names one life of one process, so that
-/// what an earlier life still had under way is recognised and dropped.
+/// Messages between coordinator and workers (grammar: docs/design/protocol.md). An incarnation is a random number that
+/// a worker draws at its start; with the peer number it identifies one life of one process, so that messages still
+/// under way from an earlier life are recognised and dropped.
 
 struct Hello {
     static constexpr Kind kKind = Kind::hello;
     std::uint64_t incarnation = 0;
     std::uint64_t fingerprint = 0;  ///< equal fingerprints promise equal bits (fingerprint.h)
-    std::uint32_t threads = 0;      ///< that trace
-    std::uint32_t job = 0;          ///< which one it speaks of: that of the last rejoin, 0 before any
-    std::uint64_t scene_hash = 0;   ///< of the scene it holds, from an earlier life or job; 0: none
-    std::uint64_t memory = 0;       ///< bytes that its host can still give; 0: not known
+    std::uint32_t threads = 0;      ///< tracing threads
+    std::uint32_t job = 0;         ///< number of the job this message belongs to: that of the last rejoin, 0 before any
+    std::uint64_t scene_hash = 0;  ///< of the scene kept from an earlier life or job; 0: none
+    std::uint64_t memory = 0;      ///< bytes that the host can still provide; 0: unknown
     std::string host;
     std::string version;  ///< of the program
 
@@ -43,12 +43,12 @@ struct Hello {
 
 struct Welcome {
     static constexpr Kind kKind = Kind::welcome;
-    std::uint32_t worker = 0;        ///< its peer number
-    double heartbeat_seconds = 1.0;  ///< how often each side says that it lives
+    std::uint32_t worker = 0;        ///< peer number of the worker
+    double heartbeat_seconds = 1.0;  ///< interval of heartbeats, either way
     std::string job;                 ///< TOML text of the resolved job
-    std::uint64_t scene_hash = 0;    ///< of the encoded scene; it is sent unless the worker holds it
-    std::uint64_t scene_bytes = 0;   ///< so that a scene of which no piece ever comes is missed
-    bool keep_scene = false;         ///< other jobs may follow
+    std::uint64_t scene_hash = 0;    ///< of the encoded scene, which is sent unless the worker has it
+    std::uint64_t scene_bytes = 0;   ///< size of the scene, so that a worker notices if no piece of it arrives
+    bool keep_scene = false;         ///< the scene is needed again: more jobs may follow
 
     bool operator==(const Welcome&) const = default;
 };
@@ -60,10 +60,10 @@ struct Refuse {
     bool operator==(const Refuse&) const = default;
 };
 
-/// Data that travels along a chain of workers.
+/// Data sent along a chain of workers.
 enum class Blob : std::uint8_t { scene, tree };
 
-/// A piece of a broadcast. Who receives it forwards it to chain[0] with the rest of the chain.
+/// A piece of a broadcast. The receiver forwards it to chain[0] with the rest of the chain.
 struct Chunk {
     static constexpr Kind kKind = Kind::chunk;
     Blob blob = Blob::scene;
@@ -77,7 +77,7 @@ struct Chunk {
     bool operator==(const Chunk&) const = default;
 };
 
-/// Send me this blob again, directly, from this offset on.
+/// Request for a blob, directly, from this offset on.
 struct Resend {
     static constexpr Kind kKind = Kind::resend;
     Blob blob = Blob::scene;
@@ -93,38 +93,38 @@ struct PassBegin {
     PassPlan plan;
     std::uint64_t tree_bytes = 0;  ///< length and hash of the encoded tree that guides the pass
     std::uint64_t tree_hash = 0;
-    double result_seconds = 0;  ///< between two results of a worker, but at the end
+    double result_seconds = 0;  ///< interval between results of a worker, except at the end
 
     bool operator==(const PassBegin&) const;
 };
 
-/// Credit: the worker can take so many more units of this pass than it asked for before. None: it only says how little
+/// Credit: number of units of this pass that the worker can take beyond earlier requests. Zero only reports how little
 /// it has left.
 struct Want {
     static constexpr Kind kKind = Kind::want;
     std::uint64_t incarnation = 0;
     std::uint32_t pass = 0;
     std::uint32_t units = 0;
-    std::uint64_t queued = 0;  ///< paths of the units that it has and has not begun
+    std::uint64_t queued = 0;  ///< paths of its units that are not begun
 
     bool operator==(const Want&) const = default;
 };
 
-/// Units that a worker gets for its credit. None: for now nothing is left, so it had better send what it has.
+/// Units granted to a worker. An empty list means that nothing is left for now, so the worker should send its results.
 struct Work {
     static constexpr Kind kKind = Kind::work;
     std::uint32_t pass = 0;
-    std::vector<WorkUnit> units;  ///< all of that pass
-    bool alone = false;           ///< what they bring is to be sent as soon as it is there, with nothing else
+    std::vector<WorkUnit> units;  ///< units of this pass
+    bool alone = false;           ///< the result must be sent at once, alone
 
     bool operator==(const Work&) const = default;
 };
 
-/// Units that are done: whoever has not begun them need not.
+/// Units that are finished; workers need not begin them.
 struct Drop {
     static constexpr Kind kKind = Kind::drop;
     std::uint32_t pass = 0;
-    std::vector<WorkUnit> units;  ///< all of that pass
+    std::vector<WorkUnit> units;  ///< units of this pass
 
     bool operator==(const Drop&) const = default;
 };
@@ -133,21 +133,21 @@ struct Drop {
 struct UnitResult {
     WorkUnit unit;
     std::vector<PixelEstimate> pixels;
-    AovPixels aovs;  ///< as the job asks for
+    AovPixels aovs;  ///< AOVs that the job requests
 };
 
-/// Finished units and what exactly these units taught the tree: result and acknowledgement in one.
+/// Finished units and the guide update from exactly these units: result and acknowledgement in one message.
 struct Result {
     static constexpr Kind kKind = Kind::result;
     std::uint64_t incarnation = 0;
     std::uint32_t pass = 0;
     std::vector<UnitResult> units;
-    Bytes update;  ///< CellSums::encode(); empty when the pass records nothing
-    Bytes splats;  ///< SplatSums::encode() of exactly these units; empty where the pass has none
+    Bytes update;  ///< CellSums::encode(); empty if the pass records nothing
+    Bytes splats;  ///< SplatSums::encode() of exactly these units; empty if the pass has none
     TraceStats stats;
 };
 
-/// Alive. From a worker also what it has done so far in all, delivered or not, for the progress display.
+/// Sign of life. From a worker also its work so far, delivered or not, for the progress display.
 struct Heartbeat {
     static constexpr Kind kKind = Kind::heartbeat;
     std::uint64_t incarnation = 0;  ///< 0 from the coordinator
@@ -165,8 +165,8 @@ struct Failure {
     bool operator==(const Failure&) const = default;
 };
 
-/// Drop what you have, draw a new incarnation and say hello to this job: another one begins, or you were given up for
-/// lost and what you had was issued again.
+/// Order to discard all work, draw a new incarnation and say hello to this job: another job begins, or the worker was
+/// considered lost and its units were issued again.
 struct Rejoin {
     static constexpr Kind kKind = Kind::rejoin;
     std::uint32_t job = 0;
@@ -188,7 +188,7 @@ struct Bye {
 
 struct Leave {
     static constexpr Kind kKind = Kind::leave;
-    bool finalize = false;  ///< nobody was lost: the message layer may be shut down in order
+    bool finalize = false;  ///< no worker was lost: the message layer may be shut down in order
 
     bool operator==(const Leave&) const = default;
 };
@@ -196,7 +196,7 @@ struct Leave {
 using Message = std::variant<Hello, Welcome, Refuse, Chunk, Resend, PassBegin, Want, Work, Result, Heartbeat, Failure,
                              Rejoin, Quit, Bye, Leave, Drop>;
 
-/// Calls the member of `Overloads` that takes the message's type: std::visit(Overloads{...}, message).
+/// Function object that calls the member of `Overloads` for the message's type: std::visit(Overloads{...}, message).
 template <class... Handlers>
 struct Overloads : Handlers... {
     using Handlers::operator()...;
@@ -208,7 +208,7 @@ Overloads(Handlers...) -> Overloads<Handlers...>;
 template <class M>
 Bytes encode(const M& message);
 
-/// Opens the envelope and reads the message; anything malformed throws FormatError before much is allocated.
+/// Opens the envelope and reads the message. Malformed bytes throw FormatError before much is allocated.
 Message decode(std::span<const std::uint8_t> bytes);
 
 }  // namespace treefarm

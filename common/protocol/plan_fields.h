@@ -5,7 +5,7 @@
 
 namespace treefarm {
 
-/// The fields of a pass's plan, as messages and checkpoints hold them.
+/// Fields of a pass's plan, for messages and checkpoints.
 template <class Archive>
 void serialize(Archive& a, PassPlan& m) {
     a(m.index, m.spp, m.first_sample, m.next_event, m.guided, m.split, m.light_subpaths, m.record, m.last_tree,

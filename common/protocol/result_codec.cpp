@@ -16,7 +16,7 @@ Moments read_moments(std::uint32_t n, const double* in) {
     return {n, Rgb64(in[0], in[1], in[2]), Rgb64(in[3], in[4], in[5])};
 }
 
-/// Estimates of pixels that have the same numbers of samples.
+/// Writes estimates of pixels with equal numbers of samples.
 void write_pixels(ByteWriter& writer, const std::vector<PixelEstimate>& pixels, const std::uint32_t (&n)[2]) {
     std::vector<double> values(pixels.size() * 12);
     double* out = values.data();
@@ -29,7 +29,7 @@ void write_pixels(ByteWriter& writer, const std::vector<PixelEstimate>& pixels, 
     writer.put_array(std::span<const double>(values));
 }
 
-/// Estimates of `count` pixels.
+/// Reads estimates of `count` pixels.
 std::vector<PixelEstimate> read_pixels(ByteReader& reader, std::size_t count, std::uint32_t n0, std::uint32_t n1) {
     const std::vector<double> values = reader.get_array<double>();
     if (values.size() != std::size_t{12} * count) throw FormatError("a work unit with the wrong number of pixels");
@@ -57,7 +57,7 @@ void write_unit_result(ByteWriter& writer, const UnitResult& result) {
     if (!result.aovs.direct.empty()) write_pixels(writer, result.aovs.direct, n);
 }
 
-/// Whether something follows.
+/// Reads the byte that tells whether an optional part follows.
 bool read_presence(ByteReader& reader) {
     const auto present = reader.get<std::uint8_t>();
     if (present > 1) throw FormatError("a part of a work unit that is neither there nor absent");
@@ -178,7 +178,7 @@ TraceStats read_stats(ByteReader& reader) {
     return s;
 }
 
-/// Bytes of a result, or a little more.
+/// Upper bound of a result's size in bytes.
 std::size_t size_bound(const Result& result) {
     constexpr std::size_t kMostVarint = 10, kMostStats = 2048;
     std::size_t bytes = kMostStats + kInvalidSampleBytes * result.stats.first_invalid.size() +

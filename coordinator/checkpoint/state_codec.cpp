@@ -340,8 +340,7 @@ RenderState decode_state(const SectionFile& file, std::size_t pixels, std::span<
     require(state.reports.size() == state.history.passes.size(), "not a report for each pass");
     require(!state.reports.empty() || state.partial, "no pass");
     require(state.films.empty() == state.reports.empty(), "no film");
-    require(!state.partial || state.partial->plan.index == state.reports.size(),
-            "a partial pass that is not the next one");
+    require(!state.partial || state.partial->plan.index == state.reports.size(), "a partial pass that is not the next");
     for (std::size_t k = 0; k < state.films.size(); ++k) {
         require(is_film_name(state.films[k].stored), "a film without a file");
         require(fits(state.films[k].noise, state.films.size() - k), "noise of other films");

@@ -5,7 +5,8 @@
 
 namespace treefarm {
 
-/// Advice on a file of this extension (".blend") in place of a scene; what a scene is, where it is unknown.
+/// Advice for a file with this extension (".blend") that is given instead of a scene; for unknown extensions, the
+/// formats of scenes.
 std::string foreign_format_cure(const std::string& extension);
 
 }  // namespace treefarm

@@ -19,10 +19,10 @@ void require_xml(const std::filesystem::path& path) {
                      foreign_format_cure(extension));
 }
 
-/// So many of its own sizes from the origin, a scene loses 6 of the 24 bits of its floats.
+/// Distance from the origin, in sizes of the scene, at which its floats lose 6 of their 24 bits.
 constexpr double kFarSizes = 64.0;
 
-/// The shift that moves a far scene to the origin; 0 for one that is near, or is not finite.
+/// Shift that moves a distant scene to the origin; 0 for one that is near, or is not finite.
 Imath::V3d shift_of(const Scene& scene) {
     Box3 box;
     for (const Shape& shape : scene.shapes)
@@ -42,7 +42,8 @@ LoadedScene load_scene(const std::filesystem::path& path, const std::map<std::st
         return read_mitsuba(path, defines, lenient, shift, {width, height}, sensor, limits);
     };
     SceneReading reading = read(Imath::V3d(0.0));
-    // The image does not depend on where a scene stands, but its digits do: far from the origin it is read again.
+    // The image does not depend on the scene's position, but its precision does: a distant scene is read again,
+    // shifted.
     if (const Imath::V3d shift = shift_of(reading.scene); shift != Imath::V3d(0.0)) reading = read(shift);
     std::vector<Warning> found;
     validate_scene(reading.scene, found);

@@ -14,29 +14,29 @@
 
 namespace treefarm {
 
-/// A scene that has been read and checked.
+/// A scene that was read and checked.
 struct LoadedScene {
     Scene scene;
-    std::vector<Setting> settings;  ///< what its integrator and sampler ask of the job: the layer above the defaults
+    std::vector<Setting> settings;  ///< job settings from its integrator and sampler: the layer above the defaults
     std::vector<Warning> warnings;
-    std::vector<Warning> notes;  ///< worth knowing, and no fault
+    std::vector<Warning> notes;  ///< remarks that are no faults
 };
 
 /// Reads a scene file by its extension: .xml is Mitsuba's format. A width or height above 0 replaces the film's; the
-/// camera's field of view follows the new shape of the film, as if the scene said so. `sensor` chooses one by its
-/// number from 0 on or its id; "": the file's own choice. Bad input, and what is beyond the limits, throws InputError.
+/// camera's field of view adapts to the new aspect ratio, as if the scene had it. `sensor`: number from 0 on, or id;
+/// "": the file's default. Throws InputError for bad input and input beyond the limits.
 LoadedScene load_scene(const std::filesystem::path& path, const std::map<std::string, std::string>& defines = {},
                        bool lenient = false, int width = 0, int height = 0, const std::string& sensor = "",
                        const SceneLimits& limits = {});
 
-/// A scene for lint(): before anything is repaired; what a render would refuse to read is left out.
+/// A scene for lint(), before any repair; parts that a render would refuse are left out.
 struct SceneToCheck {
     Scene scene;
-    std::vector<Setting> settings;  ///< as of LoadedScene
-    std::vector<Finding> findings;  ///< what its reader has to say
+    std::vector<Setting> settings;  ///< as in LoadedScene
+    std::vector<Finding> findings;  ///< findings of its reader
 };
 
-/// Loads a scene for lint(). Throws InputError only if there is no scene to look at.
+/// Loads a scene for lint(). Throws InputError only if there is no scene to examine.
 SceneToCheck load_scene_to_check(const std::filesystem::path& path,
                                  const std::map<std::string, std::string>& defines = {}, bool lenient = false,
                                  const std::string& sensor = "");

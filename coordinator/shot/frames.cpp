@@ -13,17 +13,17 @@ namespace {
 
 constexpr const char* kCure = "write 1-24, 1-24x2 or 1,5,9-12";
 
-/// A placeholder in a text.
+/// Placeholder of a frame number in a text.
 struct Mark {
     std::size_t begin = 0, size = 0;
-    int width = 0;  ///< least number of digits
+    int width = 0;  ///< minimal number of digits
 };
 
 bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-/// First %d or %0Nd, N from 1 to 9, from a position on.
+/// First %d or %0Nd, N from 1 to 9, at or after `from`.
 std::optional<Mark> next_mark(std::string_view text, std::size_t from) {
     for (std::size_t at = text.find('%', from); at != std::string_view::npos; at = text.find('%', at + 1)) {
         const std::string_view rest = text.substr(at + 1);
@@ -34,7 +34,7 @@ std::optional<Mark> next_mark(std::string_view text, std::size_t from) {
     return std::nullopt;
 }
 
-/// First run of # from a position on.
+/// First run of # at or after `from`.
 std::optional<Mark> next_hashes(std::string_view text, std::size_t from) {
     const std::size_t begin = text.find('#', from);
     if (begin == std::string_view::npos) return std::nullopt;

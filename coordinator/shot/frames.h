@@ -13,24 +13,24 @@ namespace treefarm {
 inline constexpr int kMostFrames = 100'000;
 inline constexpr int kLastFrame = 9'999'999;
 
-/// Frame numbers of a text as "1-24", "1-24x2" (every second one) or "1,5,9-12", in its order, each once. Throws
-/// InputError at `where`.
+/// Frame numbers of a text such as "1-24", "1-24x2" (every second) or "1,5,9-12", in the given order, without
+/// repetition. Throws InputError at `where`.
 std::vector<int> parse_frames(std::string_view text, const Location& where);
 
-/// Whether a text contains a placeholder of the frame's number: %d, or %04d and the like.
+/// Whether a text has a placeholder of the frame number: %d, %04d or the like.
 bool names_frame(std::string_view text);
-/// Text with the placeholders replaced by a frame's number: %d becomes "7", %04d "0007".
+/// The text with each placeholder replaced by the frame number: %d by "7", %04d by "0007".
 std::string for_frame(std::string_view text, int frame);
 
-/// As names_frame(), for an output file, which may also contain ####.
+/// names_frame() for the name of an output file, in which #### is a placeholder, too.
 bool output_names_frame(std::string_view file);
-/// Name of a frame's output file: as for_frame(), and #### becomes "0007", with as many digits as signs.
+/// Name of a frame's output file: for_frame(), with #### replaced by "0007", one digit for each #.
 std::string output_for_frame(std::string_view file, int frame);
 
-/// Name without placeholders and their separators: "walk" of "walk.%04d".
+/// Name without placeholders and the separators next to them: "walk" for "walk.%04d".
 std::string name_without_frame(std::string_view name);
 
-/// Frame number with leading zeros, for sorted names: "0007".
+/// Frame number with leading zeros, so that names sort: "0007".
 std::string frame_digits(int frame, int width = 4);
 
 }  // namespace treefarm

@@ -54,11 +54,11 @@ class StudyReader {
         return node->as_table();
     }
 
-    /// Job keys of a part, values tried out on a job.
+    /// Job keys in one part of the study; values are tried out on a job.
     std::vector<Setting> settings_of(const toml::table& table, StudyPart part) const {
         std::vector<Setting> settings;
         for_each_job_key(table, file_, [&](const std::string& key, const Location& where, const toml::node& value) {
-            if (part == StudyPart::scene && (key == "file" || key == "reference")) return;  // the study's own
+            if (part == StudyPart::scene && (key == "file" || key == "reference")) return;  // not job keys
             settings.push_back(read_setting(key, where, value, file_));
             check_study_key(settings.back(), part);
         });
@@ -123,7 +123,7 @@ class StudyReader {
         if (study_.methods.empty()) study_.methods.push_back({"default", {}});
     }
 
-    /// Every value of a key with every method so far.
+    /// Combines every value of a varied key with every method so far.
     void read_variations(const toml::table& table) {
         const toml::table* vary = section(table, "vary");
         if (vary == nullptr) return;
@@ -250,7 +250,7 @@ class StudyReader {
         for (const StudyMethod& method : study_.methods)
             names.push_back(method.name);
         if (std::find(names.begin(), names.end(), study_.baseline) != names.end()) return;
-        // [vary] adds its values to the names of methods: a name alone means the first of these.
+        // [vary] appends its values to the names of methods: a name alone means the first of these.
         const auto variant = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
             return name.starts_with(study_.baseline + " ");
         });
@@ -270,7 +270,7 @@ class StudyReader {
         return node.as_table();
     }
 
-    /// The table's entries as they stand in the file: TOML's tables are sorted.
+    /// Entries of a table in the order of the file, since toml++ sorts tables.
     static std::vector<std::pair<std::string, const toml::node*>> in_order(const toml::table& table) {
         std::vector<std::pair<std::string, const toml::node*>> entries;
         for (const auto& [key, node] : table)

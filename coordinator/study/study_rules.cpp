@@ -8,7 +8,7 @@
 namespace treefarm {
 namespace {
 
-/// Keys that a part of the study may not set, by their beginning, and what to do instead.
+/// Prefix of keys that a part of the study may not set, and what to do instead.
 struct Reserved {
     std::string_view beginning;
     const char* cure;

@@ -10,8 +10,8 @@
 
 namespace treefarm {
 
-/// While it lives, says that something is being read, and for how long: once it takes a second on a terminal, ten
-/// seconds elsewhere.
+/// Notice that a file is being read, with the seconds so far; shown while the object lives, from one second on at a
+/// terminal, ten seconds elsewhere.
 class ReadingNotice {
   public:
     ReadingNotice(ConsolePtr console, std::string name);
@@ -30,7 +30,7 @@ class ReadingNotice {
     std::thread thread_;
 };
 
-/// "reading kitchen   3 s so far".
+/// Status line "reading kitchen   3 s so far".
 Status reading_status(const std::string& name, double seconds);
 
 }  // namespace treefarm

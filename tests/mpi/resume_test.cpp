@@ -128,7 +128,8 @@ TEST(Resume, AProgramThatIsKilledWithinAPassGoesOnWithinIt) {
     ASSERT_FALSE(fs::exists(folder / "summary.json"));
     const Ending ending = Program(mpirun(3) + resume(folder, {"--set", "farm.tile_size=9"})).wait(kSoon);
     EXPECT_EQ(ending.code, 0) << ending.output;
-    EXPECT_NE(ending.output.find("0 passes with 0 spp are done, one is begun"), std::string::npos) << ending.output;
+    EXPECT_NE(ending.output.find("0 passes with 0 spp are done, one is partly done"), std::string::npos)
+        << ending.output;
     EXPECT_EQ(hashes_of(folder), truth);
 }
 
@@ -140,7 +141,7 @@ TEST(Resume, AProgramThatIsInterruptedWithinItsFirstPassKeepsWhatItHas) {
     program.signal(SIGINT);
     const Ending ending = program.wait(kSoon);
     EXPECT_EQ(ending.code, 3) << ending.output;
-    EXPECT_NE(ending.output.find("% of the pass in hand; go on with: treefarm resume " + folder.string()),
+    EXPECT_NE(ending.output.find("% of the unfinished pass; go on with: treefarm resume " + folder.string()),
               std::string::npos)
         << ending.output;
     EXPECT_FALSE(fs::exists(folder / "image.exr"));

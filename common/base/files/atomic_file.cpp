@@ -26,7 +26,7 @@ namespace {
 
 using Pieces = std::span<const std::span<const std::uint8_t>>;
 
-/// 0, or the errno of the call that failed.
+/// Writes all pieces. Returns 0, or the errno of the failed call.
 int write_all(int fd, Pieces pieces) {
     for (std::span<const std::uint8_t> bytes : pieces)
         while (!bytes.empty()) {
@@ -41,7 +41,7 @@ int write_all(int fd, Pieces pieces) {
 constexpr char kTemporaryMark[] = ".tmp-";
 constexpr std::size_t kTemporaryLetters = 12;
 
-/// Beside `target`: the same folder is the same file system, so that renaming replaces in one step.
+/// Name of a temporary file in the folder of `target`: there, renaming is atomic.
 fs::path temporary_name(const fs::path& target) {
     constexpr char letters[] = "abcdefghijklmnopqrstuvwxyz012345";  // 32
     std::uint8_t random[kTemporaryLetters] = {};
@@ -55,16 +55,16 @@ fs::path temporary_name(const fs::path& target) {
 int write_whole(const fs::path& path, Pieces pieces, Outlives outlives, const fs::file_status& old) {
     const bool replaces = fs::exists(old);
     const auto mode = replaces ? static_cast<mode_t>(old.permissions() & fs::perms::all) : mode_t{0666};
-    // O_EXCL opens neither a file nor a link that is there.
+    // O_EXCL opens neither an existing file nor a link.
     Descriptor file = Descriptor::open(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, mode);
     if (!file) return errno;
-    if (replaces) ::fchmod(file.fd(), mode);  // some file systems have no permissions to set, which loses nothing
+    if (replaces) ::fchmod(file.fd(), mode);  // some file systems have no permissions to set; that loses nothing
     if (const int error = write_all(file.fd(), pieces)) return error;
     if (outlives == Outlives::power && ::fsync(file.fd()) != 0) return errno;
     return file.close() ? 0 : errno;
 }
 
-/// The rename itself is durable once its folder is; some file systems refuse to sync a folder, which loses nothing.
+/// Syncs the folder of a file, which makes the rename durable; some file systems refuse that, which loses nothing.
 void sync_folder(const fs::path& file) {
     const fs::path folder = file.parent_path();
     const Descriptor directory = Descriptor::open(folder.empty() ? fs::path(".") : folder, O_RDONLY | O_DIRECTORY);
@@ -89,7 +89,7 @@ void write_pieces_atomically(const fs::path& path, Pieces pieces, Outlives outli
     if (fs::is_directory(status)) fail(path, "write", EISDIR);
     if (fs::exists(status) && !fs::is_regular_file(status)) return write_special(path, pieces);
 
-    // A symbolic link stays one: its target is replaced.
+    // A symbolic link is kept: its target is replaced.
     const fs::path target = fs::exists(status) ? fs::canonical(path, none) : path;
     const fs::path temporary = temporary_name(target);
     int error = write_whole(temporary, pieces, outlives, status);

@@ -10,11 +10,11 @@
 
 namespace treefarm {
 
-/// The failure that a written file outlives: of this process, or of the machine's power as well, for which the
-/// disk is waited for (a tenth of a second, if it is busy).
+/// Failure that a written file must survive: the end of this process, or also a loss of power, which means waiting for
+/// the disk (a tenth of a second if it is busy).
 enum class Outlives { process, power };
 
-/// A file could not be written, and why: an errno.
+/// Error of writing a file, with the errno.
 class FileError : public RunError {
   public:
     FileError(const std::string& message, int code) : RunError(message), code_(code) {}
@@ -24,22 +24,21 @@ class FileError : public RunError {
     int code_;
 };
 
-/// Writes a file so that a crash at any moment leaves either the old content or the new: temporary file beside it,
-/// fsync, rename, fsync of the folder; without either fsync if it need not outlive `power`. The temporary is made as by
-/// mkstemp: under a name that nobody can foresee, and never one that is there. An existing file keeps its permissions,
-/// a new one follows the umask. What is not a regular file (/dev/stdout, a pipe) is written to directly. Throws
-/// FileError.
+/// Writes a file such that a crash at any moment leaves either the old content or the new: temporary file in the same
+/// folder, fsync, rename, fsync of the folder (without the fsyncs unless it must survive `power`). The temporary file
+/// is created as by mkstemp, under an unpredictable name. An existing file keeps its permissions; a new one follows the
+/// umask. A path that is no regular file (/dev/stdout, a pipe) is written to directly. Throws FileError.
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::uint8_t> bytes,
                            Outlives outlives = Outlives::power);
 
-/// Writes a file as write_file_atomically() does, of a content in pieces.
+/// Writes a file as write_file_atomically() does, from several pieces.
 void write_pieces_atomically(const std::filesystem::path& path, std::span<const std::span<const std::uint8_t>> pieces,
                              Outlives outlives = Outlives::power);
 
-/// Makes a file that was written to outlive the process outlive the power, too, as far as the file system can.
+/// Makes a file that survives the process survive a loss of power, too, as far as the file system allows.
 void make_durable(const std::filesystem::path& path);
 
-/// The name is that of a temporary file beside `name`: left by a program that was killed as it wrote.
+/// Whether a name is that of a temporary file for `name`, left by a program that was killed while writing.
 bool is_temporary_of(const std::string& candidate, const std::string& name);
 
 }  // namespace treefarm

@@ -8,11 +8,11 @@
 
 namespace treefarm {
 
-/// A limit of files that people give: stb counts in int.
+/// Limit of files given by users: stb counts in int.
 inline constexpr std::uintmax_t kMostBytes = 0x7fffffff;
 
-/// A whole file of at most `most` bytes. Throws InputError that names the file: missing, not a regular file (`cure`
-/// says what to give), too large, unreadable.
+/// Content of a file of at most `most` bytes. Throws InputError with the file's name if it is missing, not a regular
+/// file (`cure`: what to give instead), too large, or unreadable.
 std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path, const std::string& cure,
                                      std::uintmax_t most = kMostBytes);
 

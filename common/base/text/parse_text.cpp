@@ -64,7 +64,7 @@ std::optional<double> parse_number(std::string_view text) {
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (end != text.data() + text.size() || text.empty()) return std::nullopt;
-    // from_chars leaves the value alone both on overflow and on underflow: tell them apart.
+    // from_chars leaves the value alone on overflow and on underflow; strtod tells them apart.
     if (error == std::errc::result_out_of_range) value = std::strtod(std::string(text).c_str(), nullptr);
     if (error == std::errc::invalid_argument || !std::isfinite(value)) return std::nullopt;
     return value;

@@ -12,7 +12,7 @@ std::uint32_t byte_at(std::string_view text, std::size_t at) {
     return at < text.size() ? static_cast<unsigned char>(text[at]) : 0;
 }
 
-/// Length of the UTF-8 sequence that begins at `at`, and its character; 0 where there is none.
+/// Length in bytes of the UTF-8 sequence at `at`, and its character; 0 if the bytes there are not UTF-8.
 std::size_t decode(std::string_view text, std::size_t at, std::uint32_t& character) {
     const std::uint32_t first = byte_at(text, at);
     if (first < 0x80) {
@@ -27,7 +27,8 @@ std::size_t decode(std::string_view text, std::size_t at, std::uint32_t& charact
         if ((next & 0xc0) != 0x80) return 0;
         character = character << 6 | (next & 0x3f);
     }
-    constexpr std::uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};  // a longer form than needed hides a character
+    constexpr std::uint32_t least[] = {0, 0, 0x80, 0x800,
+                                       0x10000};  // overlong forms are refused: they can hide a character
     const bool surrogate = character >= 0xd800 && character < 0xe000;
     return character < least[length] || character > 0x10ffff || surrogate ? 0 : length;
 }

@@ -6,8 +6,8 @@
 
 namespace treefarm {
 
-/// The text in one line and harmless to terminals: control characters (line ends, escapes, those of C1 too) and bytes
-/// that are not UTF-8 are replaced by "?". What comes from files and other hosts may hold anything.
+/// The text on one line, safe for terminals: control characters (line ends, escapes, also C1) and bytes that are not
+/// UTF-8 become "?". For text from files and other hosts.
 std::string printable(std::string_view text);
 
 }  // namespace treefarm

@@ -5,43 +5,43 @@
 
 namespace treefarm {
 
-/// Words of an effect, for people: a row of docs/generated/effects.md.
+/// Texts about an effect: a row of docs/generated/effects.md.
 struct EffectText {
-    const char* name;   ///< "bump": unique, as jobs and plans write it
+    const char* name;   ///< "bump": unique; used in jobs and plans
     const char* group;  ///< "materials"
     const char* what;   ///< one line
-    const char* when;   ///< when it is on; a `*` stands for the names of the effects that are part of it
-    const char* cost;   ///< in memory and in time
+    const char*
+        when;  ///< condition under which it is on; a `*` stands for the names of the effects that are part of it
+    const char* cost;  ///< cost in memory and in time
 };
 
-/// Where a family of kinds (common/scene/kinds) names its effects.
+/// Family of kinds (common/scene/kinds) that declares effects.
 enum class EffectFamily { none, emitters, materials, textures };
 
-/// What `effects.NAME = false` in a job does.
+/// Action of `effects.NAME = false` in a job.
 template <class Remove>
 struct OffSwitch {
-    int step;  ///< 1, 2, ...: its place in job.toml, and when it is taken out: of textures the mean first
+    int step;  ///< 1, 2, ...: position in job.toml and order of removal: the mean of textures is taken first
     const char* replacement;  ///< what the image shows in its place
-    Remove remove;  ///< takes it out of a scene: called with a Remover (common/plan/effects/approximation.cpp)
+    Remove remove;  ///< removes it from a scene: called with a Remover (common/plan/effects/approximation.cpp)
 };
 
-/// What to do instead of switching off an effect that no key switches off.
+/// Advice for an effect without a switch.
 struct NoSwitch {
     const char* cure;
 };
 
-/// An effect that goes off with another one, which has a switch.
+/// Marks an effect that is switched off together with another one.
 struct PartOf {
     const char* whole;
 };
 
-/// An effect: its words, what finds it in a scene and a job, and how it is switched off.
+/// An effect: its texts, its finder in a scene and a job, and its switch.
 template <class Find, class Off>
 struct EffectRow {
     EffectText text;
     EffectFamily family;
-    Find find;  ///< called with an EffectFinder (common/plan/effects/effect_finder.h), whose members say what there is
-                ///< to ask
+    Find find;  ///< called with an EffectFinder (common/plan/effects/effect_finder.h)
     Off off;
 };
 
@@ -66,14 +66,14 @@ constexpr EffectRow<Find, Off> effect(const EffectText& text, Find find, Off off
     return {text, EffectFamily::none, find, off};
 }
 
-/// Finds the kinds of a family that name an effect as theirs.
+/// Finder of the kinds of a family that declare the effect as their own.
 struct FindKind {
     const char* name;
     EffectFamily family;
     constexpr auto operator()(const auto& find) const { return find.kind(family, name); }
 };
 
-/// An effect that is on where there is an emitter, a material or a texture of a kind that names it.
+/// Row of an effect that is on if an emitter, a material or a texture has a kind that declares it.
 template <class Off>
 constexpr EffectRow<FindKind, Off> effect_of_kind(const EffectText& text, EffectFamily family, Off off) {
     return {text, family, {text.name, family}, off};

@@ -14,8 +14,8 @@
 
 namespace treefarm {
 
-/// Every effect that the program knows, those that it never simulates last: names, words, what finds each, and how it
-/// is switched off. Modules below `plan` see names and words; what finds and removes becomes code in `plan` alone.
+/// All effects that the program knows; those that it never simulates come last. Modules below `plan` see names and
+/// texts; finders and removers are instantiated in `plan` alone.
 inline constexpr auto kEffectRows =
     std::tuple_cat(kLightEffects, kMaterialEffects, kShapeEffects, kCameraEffects, kTransportEffects, kNeverEffects);
 inline constexpr std::size_t kEffectCount = std::tuple_size_v<decltype(kEffectRows)>;
@@ -26,7 +26,7 @@ constexpr void for_each_effect(F&& f) {
     std::apply([&](const auto&... row) { (f(row), ...); }, kEffectRows);
 }
 
-/// The place in the table of the row that a predicate holds for; kEffectCount if there is none.
+/// Index of the first row for which a predicate holds; kEffectCount if there is none.
 template <class Test>
 constexpr std::size_t find_effect(Test test) {
     std::size_t found = kEffectCount, index = 0;
@@ -37,12 +37,12 @@ constexpr std::size_t find_effect(Test test) {
     return found;
 }
 
-/// Whether a kind of a family may name this effect as its own.
+/// Whether a kind of a family may declare this effect as its own.
 constexpr bool is_effect_of(EffectFamily family, std::string_view name) {
     return find_effect([&](const auto& row) { return row.family == family && name == row.text.name; }) < kEffectCount;
 }
 
-/// An effect by its place in the table; made from its name while compiling, where a name that is not there is an error.
+/// Index of an effect, from its name at compile time, where an unknown name is an error.
 class EffectId {
   public:
     consteval EffectId(const char* name) : index_(index_of(name)) {}
@@ -57,7 +57,7 @@ class EffectId {
     std::size_t index_;
 };
 
-/// What a table must fulfil that this one does not, or nothing.
+/// First rule of the table that is violated, or nullptr.
 consteval const char* fault_of_effects() {
     std::array<std::string_view, kEffectCount> names;
     std::array<bool, kEffectCount> with_switch{}, step_taken{};

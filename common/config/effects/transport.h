@@ -56,7 +56,7 @@ inline constexpr auto kTransportEffects = std::tuple(
         {"hidden_emitters", "transport", "the camera does not see emitters", "`integrator.hide_emitters`", "no memory"},
         [](const auto& find) { return find.hidden_emitters(); }, instead("set integrator.hide_emitters = false")));
 
-/// What this program does not simulate, whatever a scene calls for.
+/// Group of effects that this program does not simulate.
 inline constexpr char kNeverGroup[] = "never";
 
 constexpr auto never(const char* name, const char* what) {

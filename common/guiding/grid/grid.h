@@ -7,9 +7,9 @@
 
 namespace treefarm {
 
-/// The simplest guide that can be, to read first and to copy from (docs/use/write-a-guide.md): regions of a fixed grid,
-/// in each the strata of directions (strata.h), sampled in proportion to the radiance that the pass before recorded
-/// there, but for a part that all share alike, however dark.
+/// The simplest guide, to be read first and copied (docs/use/write-a-guide.md): regions of a fixed grid, each with
+/// fixed strata of directions (strata.h). A stratum's probability is proportional to the radiance that the previous
+/// pass recorded there, plus an equal part for all (grids.even_part), so that dark strata are sampled, too.
 struct GridModel : RegionModel {
     std::vector<std::uint32_t> mass;  ///< per region kStrata probabilities in Z-order, times 2^kMassBits, their sum
     bool operator==(const GridModel&) const = default;

@@ -8,14 +8,14 @@
 
 namespace treefarm {
 
-/// Q-learning of light (Dahm and Keller 2017, "Learning light transport the reinforced way"): a table of radiances
-/// Q(region, stratum), the regions of a fixed grid and strata of directions (strata.h). A visit brings what its
-/// direction met at once, and for the rest what the table says of the next vertex (guiding.bootstrap, 1 here:
-/// Cavus 2020, eq. 2.27, by one sample of the integral); Q is the mean of visits, those of earlier passes at half their
-/// weight each time. Strata are sampled in proportion to Q, but for a floor (kTableFloor): what was never sampled
-/// would never be learned.
+/// Q-learning of light (Dahm and Keller 2017, "Learning light transport the reinforced way"): a table Q(region,
+/// stratum) of radiances over the regions of a fixed grid and strata of directions (strata.h). A visit adds the
+/// emission met in its direction plus the table's estimate at the next vertex (guiding.bootstrap, 1 here: Cavus 2020,
+/// eq. 2.27, with one sample of the integral). Q is the mean of the visits; the weight of earlier passes halves with
+/// each pass. A stratum's probability is proportional to Q, but at least a floor (grids.table_floor), since a stratum
+/// that is never sampled is never learned.
 struct QTableModel : RegionModel {
-    std::vector<float> q;  ///< per region kStrata radiances, averaged over channels, >= 0 and finite
+    std::vector<float> q;  ///< per region kStrata radiances, mean of the channels, >= 0 and finite
     bool operator==(const QTableModel&) const = default;
 };
 
@@ -53,7 +53,7 @@ class QTableCells {
     double learn(const QTableModel& model, const CellSums& sums, const RefineSettings& settings, std::uint32_t region,
                  QTableModel& next);
 
-    /// Lists what it remembers, for a checkpoint.
+    /// Archives the state, for a checkpoint.
     template <class Archive>
     void serialize(Archive& archive) {
         archive(visits_);

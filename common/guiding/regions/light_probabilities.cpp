@@ -9,8 +9,8 @@
 namespace treefarm {
 namespace {
 
-/// Whole numbers in proportion to `parts`, whose sum is 1, that sum to kLightProbabilityOne: what rounding leaves goes
-/// to the choice without.
+/// Integers proportional to `parts`, whose sum is 1, with the sum kLightProbabilityOne. The rounding error is added to
+/// the entry for the unlearned choice.
 LightProbabilities rounded(const std::array<double, kLightClusters + 1>& parts) {
     LightProbabilities probabilities{};
     std::uint32_t rest = kLightProbabilityOne;

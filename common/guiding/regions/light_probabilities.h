@@ -11,22 +11,21 @@
 
 namespace treefarm {
 
-/// The light share of an untaught region: next event chooses among all emitters, as where nothing is learned.
+/// Probabilities of a region that has learned nothing: next event chooses among all emitters.
 inline constexpr LightProbabilities kNothingLearned = {kLightProbabilityOne};
 
-/// The coordinator's memory of what next event found in each region, from pass to pass (docs/design/guiding.md,
-/// "Choosing emitters").
+/// Learner of the emitter choice per region, from the contributions of next event (docs/design/guiding.md, "Choosing
+/// emitters").
 ///
-/// A sample of cluster c, chosen with the probability q, that brings X (f |cos| L over the density, weighed against
-/// scattering) adds q X^2. The sum's expectation is what c contributes to the second moment if it is always chosen,
-/// whatever q was, so sums of passes and workers add up. The choice that makes the variance least is proportional to
-/// its root.
+/// A sample of cluster c, chosen with probability q, with contribution X (f |cos| L over the density, weighted against
+/// scattering) adds q X^2. The expectation of the sum is the second moment of c when it is always chosen, independent
+/// of q, so sums of passes and workers add up. Variance is least if c is chosen in proportion to the root of its sum.
 class LightLearner {
   public:
-    /// Sets next.light_probabilities from what the pass over `tree` recorded. `origins` as in MixtureLearner.
+    /// Sets next.light_probabilities from the records of the pass over `tree`. `origins` as in MixtureLearner.
     void learn(const RegionModel& tree, const CellSums& sums, std::span<const RegionOrigin> origins, RegionModel& next);
 
-    /// Lists what it remembers, for a checkpoint.
+    /// Archives the state, for a checkpoint.
     template <class Archive>
     void serialize(Archive& archive) {
         archive(evidence_);
@@ -34,18 +33,18 @@ class LightLearner {
 
   private:
     struct Evidence {
-        std::array<double, kLightClusters> moments{};  ///< in radiance squared, not in quanta
-        double vertices = 0;                           ///< that were recorded
+        std::array<double, kLightClusters> moments{};  ///< second moments in radiance squared, not in quanta
+        double vertices = 0;                           ///< number of recorded vertices
 
         template <class Archive>
         void serialize(Archive& archive) {
             archive(moments, vertices);
         }
     };
-    std::vector<Evidence> evidence_;  ///< per region of the coming tree
+    std::vector<Evidence> evidence_;  ///< per region of the next tree
 };
 
-/// The share of a region that recorded `vertices` with these second moments, if its parent's share is `prior`.
+/// Probabilities of a region that recorded `vertices` with these second moments; `prior`: those of its parent.
 LightProbabilities learned_probabilities(std::span<const double, kLightClusters> moments, double vertices,
                                          const LightProbabilities& prior);
 

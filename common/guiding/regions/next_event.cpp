@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kChoices = kNextEventSamples.size();
 constexpr double kLeastRest = 0.02;  ///< of noise and of cost: no decision is believed to take away all
 
-/// Second moment of the region's direct light at a choice, in sums over the evidence.
+/// Second moment of the region's direct light under a choice, as a sum over the evidence.
 double moment(const NextEventEvidence& e, std::size_t choice) {
     return e[kNextEventMoments + choice];
 }
@@ -25,7 +25,7 @@ double rays(const NextEventEvidence& e, std::size_t choice) {
            (tuned("next_event.sample_cost") + tuned("next_event.shadow_ray_cost") * traced);
 }
 
-/// What a change from one choice to another may turn out worse than it looks, by chance.
+/// Standard error of the change in noise from one choice to another.
 double doubt(const NextEventEvidence& e, std::size_t from, std::size_t to) {
     const double all = moment(e, kChoices - 1) - moment(e, 0);
     const double part = std::abs(moment(e, to) - moment(e, from));
@@ -33,7 +33,8 @@ double doubt(const NextEventEvidence& e, std::size_t from, std::size_t to) {
                    : 0.0;
 }
 
-/// What is left of a region's noise and cost once a tree has learned what `steps` to fewer light samples leave to it.
+/// Factor on a region's noise and cost after later trees have learned the light that `steps` to fewer light samples
+/// leave to them.
 double left_by_trees(std::size_t steps) {
     double left = 1.0;
     for (; steps > 0; --steps)
@@ -41,7 +42,7 @@ double left_by_trees(std::size_t steps) {
     return left;
 }
 
-/// `credited`: up to which choice steps to fewer light samples have credit.
+/// `credited`: last choice that gets this credit.
 std::size_t best_choice(const NextEventEvidence& e, std::size_t now, std::size_t credited, double lambda) {
     const auto price = [&](std::size_t choice) {
         return (moment(e, choice) + lambda * rays(e, choice)) * left_by_trees(std::min(choice, credited));
@@ -64,13 +65,13 @@ void add_halved(NextEventEvidence& evidence, std::span<const std::uint64_t> fres
         evidence[i] = kKeptEvidence * evidence[i] + static_cast<double>(fresh[i]) * next_event_unit(i);
 }
 
-/// Means over the vertices of a cube, and the variance of what is known of d, the last moment less the first.
+/// Means over the vertices of a cube, and the variance of the known d (last moment minus the first).
 struct VertexMeans {
     NextEventEvidence mean{};
     double variance = 0;
 };
 
-/// Regions that know few vertices lean on the cubes about them, these on larger ones.
+/// Pooling of evidence: regions with few vertices use the means of the enclosing cubes.
 class Pooling {
   public:
     Pooling(const RegionModel& tree, std::span<const NextEventEvidence> evidence)
@@ -100,7 +101,7 @@ class Pooling {
         return sums_[node];
     }
 
-    /// `about`: means of the cube that the node's is a half of; of the root its own.
+    /// `about`: means of the cube that the node's cube is a half of; for the root its own.
     void propagate(std::uint32_t node, const VertexMeans& about) {
         const double lent = tuned("next_event.lent_vertices");
         const double own = sums_[node][kNextEventAsked];
@@ -123,7 +124,7 @@ class Pooling {
 
     const RegionModel& tree_;
     std::span<const NextEventEvidence> evidence_;
-    std::vector<NextEventEvidence> sums_;  ///< by node
+    std::vector<NextEventEvidence> sums_;  ///< evidence per node
     std::vector<NextEventEvidence> pooled_;
 };
 

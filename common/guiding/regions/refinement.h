@@ -15,50 +15,50 @@ inline constexpr double kKeptEvidence = 0.5;
 
 /// What a pass costs and how noisy it is: by these a decision on next event weighs noise against rays.
 struct NextEventPrice {
-    double variance = 0;  ///< of a camera sample, relative to the square of its block's light
-    double rays = 0;      ///< of a camera sample, in closest-hit rays; at 0 nothing is decided
+    double variance = 0;  ///< of a camera sample, relative to the squared light level of its block
+    double rays = 0;      ///< closest-hit rays per camera sample; 0: no decision
     double paths = 0;     ///< camera samples of the pass
 };
 
-/// What was decided on next event: variance times cost over that of one sample at every vertex, both as predicted; and
-/// how often emitters are sampled.
+/// Result of a decision on next event: predicted variance times cost relative to one sample at every vertex, and how
+/// often emitters are sampled.
 struct NextEventVerdict {
-    double saved = 1;  ///< 1 where nothing is decided
-    double low = 0;    ///< part of the vertices with the least samples
+    double saved = 1;  ///< 1 without a decision
+    double low = 0;    ///< share of vertices with the least samples
 };
 
-/// How a guide learns between passes; each takes of it what it has.
+/// Settings of learning between passes; each guide uses those that apply to it.
 struct RefineSettings {
     double spatial_threshold =
-        0;  ///< records (weighted) above which a region splits: c sqrt(n_k / 4), n_k spp of the coming pass
+        0;  ///< weighted records above which a region splits: c sqrt(n_k / 4), n_k spp of the next pass
     std::uint32_t directional_divisor = 100;  ///< a cell splits while divisor * sum > total
-    double least_use = 1.0;      ///< a region's divisor shrinks with twice the probability of sampling its tree, but at
-                                 ///< most to this part, (0, 1]; 1: never
+    double least_use = 1.0;  ///< a region's divisor is scaled by twice the probability of sampling its tree, but by no
+                             ///< less than this, (0, 1]; 1: never scaled
     double record_weight = 1.0;  ///< of each record of the pass: 0.5 in kick-start passes
     GuidingTarget target = GuidingTarget::radiance;
-    double view_threshold = 0;        ///< records (weighted) above which a view splits, once
-    double view_set_threshold = 0;    ///< records (weighted) above which a T2 of several regions is cut in space
-    bool last_update = false;         ///< nothing will be learned any more: what is of no use now never will be
+    double view_threshold = 0;        ///< weighted records above which a view splits, once
+    double view_set_threshold = 0;    ///< weighted records above which a T2 of several regions is cut in space
+    bool last_update = false;         ///< last learning step: distributions that are of no use now can be dropped
     bool with_flux = false;           ///< regions learn their flux
-    bool views_record_alone = false;  ///< what views recorded is missing in their regions' counts
-    double view_cells = std::numeric_limits<double>::infinity();  ///< at most so many of T2 for each of T1,
-    double least_view_cells = 0;                                  ///< unless they are fewer than this
+    bool views_record_alone = false;  ///< records of views are not in the counts of their regions
+    double view_cells = std::numeric_limits<double>::infinity();  ///< greatest number of T2 cells per T1 cell,
+    double least_view_cells = 0;  ///< number of T2 cells up to which view_cells does not apply
     NextEventPrice next_event{};
 };
 
-/// Where a region of the refined tree comes from: the region of the old tree, halved so many times.
+/// Origin of a region of the refined tree: a region of the old tree, and the number of halvings since.
 struct RegionOrigin {
     std::uint32_t region = 0;
     int halvings = 0;
 };
 
-/// Where a view of the refined tree comes from: the view of the old tree, its evidence halved so many times.
+/// Origin of a view of the refined tree: a view of the old tree, and the number of halvings of its evidence.
 struct ViewOrigin {
     std::uint32_t view = 0;
     int halvings = 0;
 };
 
-/// What became of it, for the report and for what is learned per region.
+/// Outcome of a refinement, for reports and for the learners per region.
 struct RefineReport {
     std::uint64_t spatial_depth_capped = 0;      ///< regions that would have split beyond kMaxSpatialDepth
     std::uint64_t directional_depth_capped = 0;  ///< cells that would have split beyond kMaxDirectionDepth

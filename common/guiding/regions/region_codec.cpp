@@ -10,14 +10,14 @@
 namespace treefarm {
 namespace {
 
-/// No tree of 2^31 cells needs more; a claim above it is a broken or hostile message.
+/// Greatest size of an unpacked model: more than a tree of 2^31 cells needs, so a larger claim is a malformed message.
 constexpr std::uint64_t kMaxRawBytes = std::uint64_t{1} << 34;
-/// Bits of what a model has besides.
+/// Bits of the optional parts of a model.
 constexpr int kHasLights = 1, kHasFlux = 2, kHasNextEvent = 4, kHasImage = 8;
 constexpr int kCompressionLevel = 1;  // fast: a broadcast waits for it
 
 void write_nodes(ByteWriter& out, const RegionModel& model) {
-    // Preorder, a bit a node (1: inner), in bytes of eight.
+    // Preorder, one bit per node (1: inner), packed into bytes.
     out.put_varint(model.nodes.size());
     std::vector<std::uint8_t> bits((model.nodes.size() + 7) / 8);
     std::vector<std::uint32_t> stack{0};

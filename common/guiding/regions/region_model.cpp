@@ -17,7 +17,7 @@ int exponent_of(float value) {
     return exponent;
 }
 
-/// Mean of `records`, above 0, with the sum `total` in units of 2^`exponent`.
+/// Mean of `records` records, above 0, whose sum is `total` in units of 2^`exponent`.
 float mean_record(double total, std::uint64_t records, std::int16_t exponent) {
     const double mean = std::ldexp(total / static_cast<double>(records), exponent);
     return static_cast<float>(std::min(mean, double{std::numeric_limits<float>::max()}));
@@ -31,7 +31,7 @@ void set_cube(RegionModel& model, const Box3& bounds) {
         const Vec3 size = bounds.max - bounds.min;
         model.extent = std::max(size.x, std::max(size.y, size.z));
     }
-    // A scene without extent (no shape, or a point) still needs a cube to look things up in.
+    // A scene without extent (no shape, or a point) needs a cube, too.
     if (!(model.extent > 0.0f)) model.extent = 1.0f;
 }
 

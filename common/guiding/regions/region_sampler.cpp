@@ -13,21 +13,21 @@ namespace {
 constexpr int kAxisBits = kMaxSpatialDepth / 3;
 constexpr float kAxisSteps = static_cast<float>(1 << kAxisBits);
 
-/// Halvings of each axis that a table does at once, by 16 KB.
+/// Halvings of each axis that one look-up in a table of 16 KB resolves.
 constexpr int kTopBits = 4;
 
 std::uint32_t axis_step(float position, float origin, float inverse_extent) {
     const float steps = (position - origin) * inverse_extent * kAxisSteps;
-    const float inside = steps > 0.0f ? steps : 0.0f;  // also NaN
+    const float inside = steps > 0.0f ? steps : 0.0f;  // NaN becomes 0
     return static_cast<std::uint32_t>(static_cast<std::int32_t>(inside < kAxisSteps ? inside : kAxisSteps - 1.0f));
 }
 
-/// Which of a treelet's entries, at the axes' `bit`.
+/// Index of a treelet's entry, by bit `bit` of each axis.
 std::uint32_t octant_at(std::uint32_t x, std::uint32_t y, std::uint32_t z, int bit) {
     return ((x >> bit) & 1) | (((y >> bit) & 1) << 1) | (((z >> bit) & 1) << 2);
 }
 
-/// Which of the table's entries.
+/// Index of the table's entry.
 std::uint32_t top_index(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
     constexpr int kShift = kAxisBits - kTopBits;
     return (x >> kShift) | (y >> kShift << kTopBits) | (z >> kShift << (2 * kTopBits));
@@ -56,8 +56,8 @@ RegionSampler::RegionSampler(const RegionModel& model)
     build_top();
 }
 
-/// Three levels of the binary tree (x, y, z) become one line of eight entries; a leaf above the third level fills all
-/// the entries below it.
+/// Three levels of the binary tree (x, y, z) as one cache line of eight entries; a leaf above the third level fills all
+/// entries below it.
 std::uint32_t RegionSampler::build_treelet(const RegionModel& model, std::uint32_t node, int depth) {
     const auto index = static_cast<std::uint32_t>(treelets_.size());
     treelets_.emplace_back();
@@ -78,7 +78,7 @@ std::uint32_t RegionSampler::build_treelet(const RegionModel& model, std::uint32
     return index;
 }
 
-/// Table of what the root's treelet and those below lead to, for each of the cube's 2^(3 kTopBits) cells.
+/// Table of the nodes that the root's treelet and those below it lead to, for each of the cube's 2^(3 kTopBits) cells.
 void RegionSampler::build_top() {
     top_.resize(std::size_t{1} << (3 * kTopBits));
     constexpr std::uint32_t kSide = 1u << kTopBits;
@@ -110,7 +110,7 @@ void RegionSampler::regions(const VectorBatch& positions, std::uint32_t count,
         y[i] = axis_step(positions.y[i], origin_.y, inverse_extent_);
         z[i] = axis_step(positions.z[i], origin_.z, inverse_extent_);
     }
-    // Whether an entry is a leaf nothing would predict: no branch asks.
+    // Leaves are unpredictable, so there is no branch on them.
     std::array<std::uint8_t, kDrawBatch> inner;
     std::uint32_t left = 0;
     for (std::uint32_t i = 0; i < count; ++i) {

@@ -66,7 +66,7 @@ ModelFigures even_figures(const RegionModel& model) {
     return figures;
 }
 
-/// What rounding leaves goes to the first stratum, which is none of importance: it is less than 2^-24.
+/// The rounding error, less than 2^-24, is added to the first stratum, where it does not matter.
 void set_strata(std::span<const double> weight, double even_part, std::uint32_t* mass) {
     const double total = std::accumulate(weight.begin(), weight.end(), 0.0);
     std::uint32_t left = kOne;
@@ -83,7 +83,7 @@ StrataSampler::Sample StrataSampler::sample(std::uint32_t region, const Draw& ra
     std::uint32_t rest = random[1] >> (32 - kMassBits), stratum = 0;
     while (rest >= mass[stratum])
         rest -= mass[stratum++];
-    // On a grid of 2^23 steps an axis, whose centres are exact floats: the point lies in the stratum by construction.
+    // On a grid of 2^23 steps per axis, whose centres are exact floats, the point is in the stratum by construction.
     constexpr int kFineBits = 23 - kDirectionBits, kInStratum = 23 - kStrataDepth;
     const std::uint32_t x = (compact_bits(stratum) << kInStratum) + (random[2] >> (32 - kInStratum));
     const std::uint32_t y = (compact_bits(stratum >> 1) << kInStratum) + (random[3] >> (32 - kInStratum));

@@ -13,21 +13,21 @@
 
 namespace treefarm {
 
-/// What guides have in common whose regions and cells are fixed: the regions are an even grid of the cube, and the
-/// cells of each are 8 by 8 strata of the direction square (direction_map.h), in Z-order and of equal solid angle.
+/// Common part of guides with fixed regions and cells. The regions are an even grid of the cube; the cells of each are
+/// 8 by 8 strata of the direction square (direction_map.h), in Z-order and of equal solid angle.
 inline constexpr int kStrataDepth = 3;
 inline constexpr std::uint32_t kStrata = 1u << (2 * kStrataDepth);
 
-/// Makes the shared part of a model what it is before any pass: 2^grid_halvings regions. Returns how many.
+/// Sets the common part of a model before any pass: 2^grid_halvings regions. Returns their number.
 std::uint32_t begin_even_regions(RegionModel& model, const Box3& bounds, const FirstModel& settings);
-/// The model after a pass, as far as it does not depend on what was recorded, and what there is to report of it.
+/// Advances the common part by one pass, as far as it does not depend on records, and fills the report.
 void advance_even_regions(RegionModel& model, RefineReport& report);
-/// Reads the shared part: as many exponents as regions, which are returned; FormatError otherwise.
+/// Reads the common part, with one exponent per region. Returns the number of regions. Throws FormatError.
 std::uint32_t read_even_regions(ByteReader& in, RegionModel& model);
 ModelFigures even_figures(const RegionModel& model);
 
-/// Probabilities of a region's strata, times 2^kMassBits: in proportion to `weight`, which has a sum above 0, but for
-/// the part that all of them share alike. Their sum is 2^kMassBits.
+/// Probabilities of a region's strata, times 2^kMassBits, their sum: proportional to `weight`, whose sum is above 0,
+/// plus a total of `even_part` shared equally.
 void set_strata(std::span<const double> weight, double even_part, std::uint32_t* mass);
 
 /// Regions and their strata in the form that workers sample from.
@@ -38,7 +38,7 @@ class StrataSampler : public RegionSampler {
         : RegionSampler(model), mass_(std::move(mass)) {}
 
     struct Sample {
-        Vec3 direction;      ///< unit
+        Vec3 direction;      ///< unit length
         std::uint32_t code;  ///< its Z-order code, inside the sampled stratum
         float pdf;           ///< per steradian
     };

@@ -13,12 +13,12 @@
 namespace treefarm {
 namespace {
 
-/// Beyond this many cells a region no longer splits, so that indices stay below 2^32.
+/// Limit of cells beyond which regions no longer split, so that indices stay below 2^32.
 constexpr std::uint64_t kMaxCells = std::uint64_t{1} << 31;
-/// Regions that are worth a thread.
+/// Least number of regions per thread.
 constexpr std::size_t kLeastPart = 64;
 
-/// How much a region's tree can gain by finer cells depends on how often it is sampled at all.
+/// Divisor of a distribution: its gain from finer cells depends on how often it is sampled.
 std::uint32_t cell_divisor(const SdTree& tree, std::uint32_t distribution, const RefineSettings& settings) {
     if (distribution >= tree.region_count()) return settings.directional_divisor;
     const double tree_fraction = 1.0 - static_cast<double>(tree.bsdf_fraction[distribution]);
@@ -71,10 +71,10 @@ class TreeRefiner {
         return index;
     }
 
-    /// Records, weighted; halved with each split.
+    /// Weighted records of the region, halved with each split.
     double region_weight() const {
         std::uint64_t count = sums_.counts()[old_region_];
-        // As published every region has a T2 of its own.
+        // In the published method every region has its own T2.
         if (settings_.views_record_alone && old_.view_count() != 0 && old_.view_set[old_region_] != SdTree::kNoViews) {
             const std::uint32_t set = old_.view_set[old_region_];
             for (std::uint32_t v = old_.view_begin[set]; v < old_.view_begin[set + 1]; ++v)
@@ -114,8 +114,8 @@ class TreeRefiner {
     RefineReport& report_;
     std::vector<RefinedDistribution> refined_;  ///< per region of the old tree
     SdTree result_;
-    std::uint32_t old_region_ = 0;  ///< that is being refined
-    int leaf_depth_ = 0;            ///< its depth
+    std::uint32_t old_region_ = 0;  ///< region being refined
+    int leaf_depth_ = 0;            ///< depth of this region
 };
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 
 __extension__ using Wide = unsigned __int128;
 
-/// Energy of a cell: `sum` quartered `quarters` times.
+/// Energy of a cell: `sum` divided by 4^`quarters`.
 struct Energy {
     std::uint64_t sum = 0;
     int quarters = 0;
@@ -32,7 +32,8 @@ class DirectionRefiner {
     }
 
   private:
-    /// "More than 1/divisor of the energy"; an empty region splits as if energy were spread evenly.
+    /// Whether the energy is more than 1/divisor of the total; without any energy, cells split as if it were spread
+    /// evenly.
     bool splits(int depth, const Wide& sum, int quarters) const {
         if (depth == 0) return true;
         if (total_ == 0) return (Wide{1} << (2 * depth)) < divisor_;
@@ -46,7 +47,7 @@ class DirectionRefiner {
         return false;
     }
 
-    /// The node of this depth that holds the old cells [begin, end).
+    /// Visits the node of this depth that covers the old cells [begin, end).
     void visit(int depth, std::size_t begin, std::size_t end) {
         if (end - begin == 1) return visit_cell(depth, {sum_[begin], 0});
         Wide sum = 0;
@@ -63,7 +64,7 @@ class DirectionRefiner {
         }
     }
 
-    /// (Part of) one old cell.
+    /// Visits an old cell, or a part of one.
     void visit_cell(int depth, Energy energy) {
         if (!may_split(depth, energy.sum, energy.quarters)) return emit(depth, energy);
         for (int child = 0; child < 4; ++child)
@@ -76,8 +77,8 @@ class DirectionRefiner {
         result_.max_depth = std::max(result_.max_depth, depth);
     }
 
-    /// Probabilities as integers that sum to 2^kMassBits exactly: sampling and density use the same table. A cell with
-    /// energy keeps at least one unit; what rounding leaves goes to the largest cell.
+    /// Sets the probabilities, as integers that sum to 2^kMassBits exactly, so that sampling and density use one table.
+    /// A cell with energy keeps at least one unit; the rounding error goes to the largest cell.
     void assign_masses() {
         constexpr std::int64_t kWhole = std::int64_t{1} << kMassBits;
         std::int64_t left = kWhole;

@@ -40,12 +40,12 @@ class ViewRefiner {
         double records = 0;  ///< weighted
         double gain = 0;
         double cells = 0;         ///< refined, before views split
-        std::uint32_t root = 0;   ///< node of the refined tree that all its regions are below
-        std::uint32_t parts = 0;  ///< that it is cut into
-        double threshold = 0;     ///< records above which it is cut
+        std::uint32_t root = 0;   ///< lowest node of the refined tree above all its regions
+        std::uint32_t parts = 0;  ///< number of parts that it is cut into
+        double threshold = 0;     ///< weighted records above which it is cut
         bool kept = false;
     };
-    /// A node of the refined tree: which T2 all regions below it had, and how many regions those are.
+    /// A node of the refined tree: the T2 that all regions below it share, and their number.
     struct Below {
         std::uint32_t set = SdTree::kNoViews;
         std::uint32_t regions = 1;
@@ -53,7 +53,7 @@ class ViewRefiner {
     static constexpr std::uint32_t kMixed = SdTree::kNoViews - 1;
     struct Choice {
         std::uint32_t index;
-        double gain;  ///< for its cells
+        double gain;  ///< relative to its cells
     };
 
     double gain(std::uint32_t view) const { return advice_.empty() ? 0.0 : advice_[view].gain; }
@@ -62,7 +62,7 @@ class ViewRefiner {
     }
     double cells_of(std::uint32_t view) const { return static_cast<double>(refined_[view].directions.depth.size()); }
 
-    /// Whether `cells` more are still allowed; if so, they are taken.
+    /// Reserves `cells` more if the limit allows it.
     bool take(double cells) {
         if (taken_ + cells > limit_) return false;
         taken_ += cells;
@@ -83,20 +83,20 @@ class ViewRefiner {
             const Below low = find_common_sets(n.child[0]), high = find_common_sets(n.child[1]);
             below_[node] = {low.set == high.set ? low.set : kMixed, low.regions + high.regions};
         }
-        // The last to say so is the highest.
+        // The last node to set this is the highest.
         if (below_[node].set < sets_.size()) sets_[below_[node].set].root = node;
         return below_[node];
     }
 
-    /// Number of parts that cutting by this threshold makes of a T2.
+    /// Number of parts of a T2 cut by this threshold.
     std::uint32_t part_count(std::uint32_t node, double weight, double threshold) const {
         const SdTree::Node& n = result_.nodes[node];
         if (n.is_leaf() || !(weight > threshold)) return 1;
         return part_count(n.child[0], weight / 2, threshold) + part_count(n.child[1], weight / 2, threshold);
     }
 
-    /// Calls visit(T2 of the old tree, first and end of the regions, halvings) for every part of a kept T2, in the
-    /// order of regions.
+    /// Calls visit(T2 of the old tree, first and end of the regions, halvings) for each part of a kept T2, in the order
+    /// of regions.
     template <class Visit>
     void for_parts(Visit visit) const {
         for_parts(0, 0, visit);
@@ -145,7 +145,7 @@ class ViewRefiner {
             sets_[choice.index].kept = take(sets_[choice.index].cells);
     }
 
-    /// Cuts the T2s that were kept into as many parts as there is room for.
+    /// Cuts the kept T2s into as many parts as the limit of cells allows.
     void choose_cuts() {
         std::vector<Choice> choices;
         for (std::uint32_t t = 0; t < sets_.size(); ++t) {
@@ -170,7 +170,7 @@ class ViewRefiner {
         std::vector<double> cells(old_.view_count());
         for (std::uint32_t t = 0; t < sets_.size(); ++t) {
             if (!sets_[t].kept) continue;
-            // Parts share the records; as published they are not counted as shared.
+            // Parts share the records; the published method does not count them as shared.
             const double parts = sets_[t].parts, parts_counted = settings_.views_record_alone ? 1.0 : parts;
             for (std::uint32_t v = old_.view_begin[t]; v < old_.view_begin[t + 1]; ++v) {
                 if (!(records(v) > settings_.view_threshold * parts_counted)) continue;

@@ -9,19 +9,19 @@
 
 namespace treefarm {
 
-/// The SD-tree as plain values (Mueller et al. 2017): regions that each hold a quadtree over directions, T1. Frozen for
-/// a pass; cell indices mean the same on every rank. A region's cells (the quadtree's leaves) are numbered in Z-order,
-/// so the list of cell depths is the quadtree.
+/// The SD-tree as plain values (Mueller et al. 2017): regions that each have a quadtree over directions, T1. Fixed
+/// during a pass; cell indices are equal on every rank. A region's cells (the leaves of its quadtree) are numbered in
+/// Z-order, so the list of cell depths describes the quadtree.
 ///
-/// Where view-dependent surfaces were met there may be a T2 as well (Cavus 2020, 2.5.5): an upper quadtree over
-/// outgoing directions whose leaves ("views") each hold a quadtree over incident directions. Neighbouring regions may
-/// share one. A "distribution" is one of those quadtrees, whichever: that of region r is number r, that of view v is
-/// number region_count() + v.
+/// Regions with view-dependent surfaces may also have a T2 (Cavus 2020, 2.5.5): an upper quadtree over outgoing
+/// directions whose leaves ("views") each have a quadtree over incident directions. Neighbouring regions may share a
+/// T2. A "distribution" is any of the quadtrees over incident directions: number r is that of region r, number
+/// region_count() + v that of view v.
 struct SdTree : RegionModel {
-    // quantum_exponent and bsdf_fraction are per distribution; a view's fraction is the least that is left to the BSDF.
+    // quantum_exponent and bsdf_fraction are per distribution; a view's fraction is the least remainder for the BSDF.
     static constexpr std::uint32_t kNoViews = 0xffffffffu;
-    std::vector<std::uint32_t> view_set;  ///< per region: which T2 is its, or kNoViews; numbered in the regions' order,
-                                          ///< each of regions that follow each other; empty if there is none
+    std::vector<std::uint32_t> view_set;    ///< per region: index of its T2, or kNoViews; in the order of regions, a T2
+                                            ///< has consecutive regions; empty: no T2s
     std::vector<std::uint32_t> view_begin;  ///< T2s + 1 entries: views of T2 t are [view_begin[t], view_begin[t+1])
     std::vector<std::uint8_t> view_depth;   ///< per view, 0 to kMaxViewDepth; a T2's in Z-order
     std::vector<float> view_fraction;       ///< per view: probability of sampling it, [0, 1 - bsdf_fraction]
@@ -51,7 +51,7 @@ inline SdTree initial_tree(const Box3& bounds, float radiance_scale, float bsdf_
 }
 
 inline constexpr std::uint32_t kTreeMagic = 0x52544654;  ///< "TFTR"
-/// Codec of the broadcast form. decode_tree checks every structural rule and throws FormatError.
+/// Codec of the wire format. decode_tree() checks all structural rules and throws FormatError.
 Bytes encode_tree(const SdTree& tree);
 SdTree decode_tree(std::span<const std::uint8_t> bytes);
 

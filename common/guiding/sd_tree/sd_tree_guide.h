@@ -8,7 +8,7 @@
 
 namespace treefarm {
 
-/// The SD-tree among the guides (guides.h).
+/// The SD-tree as a Guide (guides.h).
 struct SdTreeGuide {
     using Model = SdTree;
     using Sampler = SdTreeSampler;

@@ -50,7 +50,7 @@ void SdTreeSampler::add_distribution(const SdTree& tree, std::uint32_t distribut
     cells_.push_back({static_cast<std::uint32_t>(code), mass});
 }
 
-/// The binary search of a look-up runs between entries k and k + 1.
+/// Fills a distribution's look-up tables; a binary search runs between entries k and k + 1.
 template <int bits>
 void SdTreeSampler::fill_lookups(LookupTable<bits>& by_mass, LookupTable<bits>& by_code, std::size_t first) const {
     constexpr std::uint32_t kSize = 1u << bits;
@@ -60,7 +60,7 @@ void SdTreeSampler::fill_lookups(LookupTable<bits>& by_mass, LookupTable<bits>& 
         const auto index = static_cast<std::uint32_t>(i);
         for (; next_mass < kSize && (next_mass << (kMassBits - bits)) < cells_[i + 1].mass_begin; ++next_mass)
             by_mass[next_mass] = index;
-        // The last cell ends at 2^32, which its code does not show.
+        // The last cell ends at 2^32, which a 32-bit code cannot express.
         for (; next_code < kSize &&
                (i + 1 == end || (next_code << (2 * kDirectionBits - bits)) < cells_[i + 1].code_begin);
              ++next_code)
@@ -91,11 +91,11 @@ float SdTreeSampler::pdf(std::uint32_t distribution, std::uint32_t code) const {
 SdTreeSampler::SquareSample SdTreeSampler::sample_square(std::uint32_t distribution, std::uint32_t pick,
                                                          std::uint32_t u0, std::uint32_t u1) const {
     const std::uint32_t mass = pick >> (32 - kMassBits);
-    // The last cell whose probability begins at or before the pick is never an empty one.
+    // The last cell whose probability begins at or before the pick is never empty.
     const Cell* const cell = last_before(range(by_mass(distribution, mass)), &Cell::mass_begin, mass);
     const std::uint32_t begin = cell[0].code_begin, area = cell[1].code_begin - begin;
-    // Positions are drawn on a grid of 2^23 steps per axis that nests in the quadtree's cells (steps' centres are exact
-    // floats), so the code of the sampled point lies in the sampled cell by construction.
+    // Positions are on a grid of 2^23 steps per axis that nests in the quadtree's cells (centres of steps are exact
+    // floats), so the code of the sampled point is in the sampled cell by construction.
     constexpr int kFineBits = 23 - kDirectionBits;
     const int shift = kFineBits + std::countr_zero(area) / 2;  // a cell is 2^shift steps wide
     const std::uint32_t x = (compact_bits(begin) << kFineBits) + (u0 >> (32 - shift));

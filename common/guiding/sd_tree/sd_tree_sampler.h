@@ -15,23 +15,22 @@
 
 namespace treefarm {
 
-/// The tree in the form that workers sample from: regions and, of each, a flat cumulative table with look-up entries
+/// The tree in the form that workers sample from: per region a flat cumulative table with look-up entries
 /// (bench/guide_bench.cpp shows why). Immutable; one per process, shared by its threads.
 class SdTreeSampler : public RegionSampler {
   public:
     explicit SdTreeSampler(const SdTree& tree);
 
-    /// A sampled point of the direction square (direction_map.h), with the density of exactly the cell it was drawn
-    /// from.
+    /// A sampled point of the direction square (direction_map.h), with the density of the cell that it was drawn from.
     struct SquareSample {
-        Vec2 at;             ///< in [0, 1)^2
+        Vec2 at;             ///< point in [0, 1)^2
         std::uint32_t code;  ///< its Z-order code, inside the sampled cell
         float pdf;           ///< per steradian of the direction, > 0
     };
 
-    /// A sampled direction, with the density of exactly the cell it was drawn from.
+    /// A sampled direction, with the density of the cell that it was drawn from.
     struct Sample {
-        Vec3 direction;      ///< unit
+        Vec3 direction;      ///< unit length
         std::uint32_t code;  ///< its Z-order code on the direction square, inside the sampled cell
         float pdf;           ///< per steradian, > 0
     };
@@ -40,26 +39,26 @@ class SdTreeSampler : public RegionSampler {
     std::uint32_t cell_count() const {
         return static_cast<std::uint32_t>(cells_.size()) - kFewCells - distribution_count();
     }
-    /// Probability of sampling the view that is this distribution.
+    /// Probability of sampling the view with this distribution.
     float view_fraction(std::uint32_t distribution) const { return view_fraction_[distribution - region_count()]; }
 
-    /// The distribution (region_count() or more) of light leaving `region` in the direction with this code, or kNoView
-    /// where the region has no T2.
+    /// Distribution (region_count() or more) of the view for light leaving `region` in the direction with this code;
+    /// kNoView if the region has no T2.
     static constexpr std::uint32_t kNoView = 0xffffffffu;
     std::uint32_t view(std::uint32_t region, std::uint32_t outgoing_code) const;
 
-    /// Fetches what view() will read first.
+    /// Prefetches the first data that view() reads.
     void prefetch_views(std::uint32_t region) const {
         if (!views_.empty()) prefetch_line(&views_[region]);
     }
 
-    /// Fetches what sample() with this `pick` will read first.
+    /// Prefetches the first data that sample() with this `pick` reads.
     void prefetch(std::uint32_t distribution, std::uint32_t pick) const {
         prefetch_line(&bsdf_fraction_[distribution]);
         prefetch_line(by_mass(distribution, pick >> (32 - kMassBits)));
     }
 
-    /// Fetches what sample() will read next, by what prefetch() has brought.
+    /// Prefetches the second data that sample() reads, which depend on the first.
     void prefetch_cell(std::uint32_t distribution, std::uint32_t pick) const {
         prefetch_ends(range(by_mass(distribution, pick >> (32 - kMassBits))));
     }
@@ -72,34 +71,33 @@ class SdTreeSampler : public RegionSampler {
     Sample sample(std::uint32_t distribution, const Draw& random) const {
         return sample(distribution, random[1], random[2], random[3]);
     }
-    /// Draws a point as sample() does, without its direction, which is quicker found for many points together.
+    /// Draws a point as sample() does, without its direction, which is faster to compute for many points at once.
     SquareSample sample_square(std::uint32_t distribution, std::uint32_t pick, std::uint32_t u0,
                                std::uint32_t u1) const;
 
-    /// Fetches what pdf() and cell() with this code will read first.
+    /// Prefetches the first data that pdf() and cell() with this code read.
     void prefetch_pdf(std::uint32_t distribution, std::uint32_t code) const {
         prefetch_line(by_code(distribution, code));
     }
 
-    /// Fetches what pdf() and cell() will read next, by what prefetch_pdf() has brought.
+    /// Prefetches the second data that pdf() and cell() read, which depend on the first.
     void prefetch_pdf_cell(std::uint32_t distribution, std::uint32_t code) const {
         prefetch_ends(range(by_code(distribution, code)));
     }
 
-    /// Density per steradian of the direction with this code; 0 where the tree has seen nothing.
+    /// Density per steradian of the direction with this code; 0 if the tree has no records there.
     float pdf(std::uint32_t distribution, std::uint32_t code) const;
 
-    /// Mean radiance that the region has learned of the direction with this code; negative where it has learned
-    /// nothing.
+    /// Mean radiance that the region has learned for the direction with this code; negative if nothing was learned.
     float radiance(std::uint32_t region, std::uint32_t code) const {
         return flux(region) > 0.0f ? flux(region) * pdf(region, code) : -1.0f;
     }
 
-    /// Index (over the whole tree) of the cell of a direction: where a record goes.
+    /// Index, over the whole tree, of a direction's cell, to which records are added.
     std::uint32_t cell(std::uint32_t distribution, std::uint32_t code) const {
         return static_cast<std::uint32_t>(find(distribution, code) - cells_.data()) - distribution;
     }
-    /// A cell's side, in steps of the direction square: 2^(kDirectionBits - depth).
+    /// Side of a cell, in steps of the direction square: 2^(kDirectionBits - depth).
     std::uint32_t cell_side(std::uint32_t distribution, std::uint32_t cell) const {
         const Cell* const c = &cells_[cell + distribution];
         return 1u << (std::countr_zero(c[1].code_begin - c[0].code_begin) / 2);
@@ -110,14 +108,15 @@ class SdTreeSampler : public RegionSampler {
   private:
     struct Cell {
         std::uint32_t code_begin;  ///< first Z-order code of the cell, modulo 2^32
-        std::uint32_t mass_begin;  ///< cumulative probability before the cell, of 2^kMassBits
+        std::uint32_t mass_begin;  ///< cumulative probability before the cell, times 2^kMassBits
     };
-    /// The cells among which a look-up has to search.
+    /// Cells that a look-up has to search.
     struct Range {
         const Cell* first;
         std::uint32_t count;
     };
-    /// Per distribution, entry k of 2^bits: the cell that holds what is k / 2^bits of a look-up's key, or may hold it.
+    /// Look-up table of a distribution. Entry k of 2^bits: first cell that may hold keys from k / 2^bits of the key
+    /// range on.
     template <int bits>
     using LookupTable = std::array<std::uint32_t, (1u << bits) + 1>;
     static constexpr int kRegionBits = 6;
@@ -126,7 +125,7 @@ class SdTreeSampler : public RegionSampler {
     static float density(const Cell* cell);
     template <int bits>
     void fill_lookups(LookupTable<bits>& by_mass, LookupTable<bits>& by_code, std::size_t first) const;
-    /// Entries of the tables: the cell is among those from this entry's to the next one's.
+    /// Table entry for this key: the cell is between the one of this entry and the one of the next.
     const std::uint32_t* by_mass(std::uint32_t distribution, std::uint32_t mass) const {
         return distribution < region_count()
                    ? &region_mass_[distribution][mass >> (kMassBits - kRegionBits)]
@@ -138,7 +137,7 @@ class SdTreeSampler : public RegionSampler {
                    : &view_code_[distribution - region_count()][code >> (2 * kDirectionBits - kViewBits)];
     }
     Range range(const std::uint32_t* entry) const { return {&cells_[entry[0]], entry[1] - entry[0] + 1}; }
-    /// Cells of a range lie side by side: most are in one line of cache, or in two.
+    /// Cells of a range are adjacent: most are in one cache line, or in two.
     static void prefetch_ends(const Range& among) {
         prefetch_line(among.first);
         prefetch_line(among.first + among.count);
@@ -146,8 +145,8 @@ class SdTreeSampler : public RegionSampler {
     const Cell* find(std::uint32_t distribution, std::uint32_t code) const {
         return last_before(range(by_code(distribution, code)), &Cell::code_begin, code);
     }
-    /// The last cell whose `begin` is at or before `key`. Most ranges have eight cells or fewer: three steps that never
-    /// branch, because nothing would predict how many are needed.
+    /// The last cell whose `begin` is at or before `key`. Most ranges have at most eight cells: three steps without
+    /// branches, since their number would be unpredictable.
     static const Cell* last_before(const Range& range, std::uint32_t Cell::*begin, std::uint32_t key) {
         const Cell* first = range.first;
         std::uint32_t count = range.count;
@@ -161,19 +160,19 @@ class SdTreeSampler : public RegionSampler {
         }
         return first + at;
     }
-    static constexpr std::uint32_t kFewCells = 8;  ///< and as many may be read beyond a range
+    static constexpr std::uint32_t kFewCells = 8;  ///< also the number of cells that may be read beyond a range
     void add_distribution(const SdTree& tree, std::uint32_t distribution);
     void add_views(const SdTree& tree);
 
-    LargeTable<Cell> cells_;  ///< each distribution's, then one at which the next would begin: cell c of distribution
-                              ///< d is c + d; kFewCells more at the end
+    LargeTable<Cell> cells_;  ///< each distribution's, then one at which the next would begin: cell c of distribution d
+                              ///< is c + d; kFewCells more at the end
     LargeTable<LookupTable<kRegionBits>> region_mass_, region_code_;
     LargeTable<LookupTable<kViewBits>> view_mass_, view_code_;
     struct Views {
-        std::uint32_t first = 0, count = 0;  ///< of the views that a region has
+        std::uint32_t first = 0, count = 0;  ///< views of a region
     };
-    std::vector<Views> views_;               ///< per region; empty if none has any
-    std::vector<std::uint32_t> view_begin_;  ///< per view: the first Z-order code of where its light leaves to
+    std::vector<Views> views_;               ///< per region; empty if no region has views
+    std::vector<std::uint32_t> view_begin_;  ///< per view: first Z-order code of its outgoing directions
     std::vector<float> view_fraction_;
 };
 

@@ -6,7 +6,7 @@ namespace {
 
 constexpr std::uint8_t kVersion = 4;
 
-/// Cuts the list of view depths into T2s: one is complete when its views cover the square.
+/// Divides the list of view depths into T2s: a T2 is complete when its views cover the square.
 void find_views(SdTree& tree, std::uint32_t regions) {
     constexpr std::uint64_t kSquare = std::uint64_t{1} << (2 * kMaxViewDepth);
     if (tree.view_fraction.size() != tree.view_depth.size())
@@ -25,7 +25,7 @@ void find_views(SdTree& tree, std::uint32_t regions) {
         covered = 0;
         tree.view_begin.push_back(v + 1);
     }
-    std::uint32_t next = 0;  // T2s are numbered as they come
+    std::uint32_t next = 0;  // T2s are numbered in order of appearance
     for (std::uint32_t r = 0; r < tree.view_set.size(); ++r) {
         const std::uint32_t set = tree.view_set[r];
         const bool known = r != 0 && set == tree.view_set[r - 1];
@@ -35,7 +35,7 @@ void find_views(SdTree& tree, std::uint32_t regions) {
         throw FormatError("a tree's views do not match its regions");
 }
 
-/// Cuts the list of cell depths into distributions: one is complete when its cells cover the square.
+/// Divides the list of cell depths into distributions: one is complete when its cells cover the square.
 void find_distributions(SdTree& tree) {
     constexpr std::uint64_t kSquare = std::uint64_t{1} << (2 * kMaxDirectionDepth);
     std::uint64_t covered = 0, mass = 0;

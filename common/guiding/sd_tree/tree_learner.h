@@ -7,15 +7,15 @@
 
 namespace treefarm {
 
-/// The way from what a pass recorded to the tree that guides the next one: refinement, and mixtures with what they
-/// remember of earlier passes. Pure but for that memory.
+/// Learner of the SD-tree: turns the records of a pass into the tree that guides the next, by refinement and by
+/// learning mixtures. Pure, except for its memory of earlier passes.
 class TreeLearner {
   public:
-    /// `learn_mixture`: the pass recorded histograms.
+    /// `learn_mixture`: the pass recorded mixture histograms.
     SdTree learn(const SdTree& tree, const CellSums& sums, const RefineSettings& settings, bool learn_mixture,
                  RefineReport& report);
 
-    /// Lists what it remembers, for a checkpoint.
+    /// Archives the state, for a checkpoint.
     template <class Archive>
     void serialize(Archive& archive) {
         archive(regions_, views_);

@@ -86,7 +86,7 @@ std::vector<double> cells_by_region(const SdTree& tree) {
 
 std::vector<float> density_map(const SdTree& tree, std::uint32_t distribution, int bits) {
     const std::size_t side = std::size_t{1} << bits, squares = side * side;
-    const std::uint64_t square = std::uint64_t{1} << (2 * (kDirectionBits - bits));  // codes of one
+    const std::uint64_t square = std::uint64_t{1} << (2 * (kDirectionBits - bits));  // codes of one square
     std::vector<double> mass(squares, 0.0);
     std::uint64_t code = 0;
     for (std::uint32_t c = tree.cell_begin[distribution]; c < tree.cell_begin[distribution + 1]; ++c) {

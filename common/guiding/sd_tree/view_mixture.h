@@ -10,26 +10,25 @@
 
 namespace treefarm {
 
-/// How often to sample T2 where a view guides. It stands beside what its region does without it, q = a_B p_B + (1 -
-/// a_B) p_1, whose mixture every region learns for itself (mixture.h): a direction is drawn from p_s = a_2 p_2 + (1 -
-/// a_2) q, and a_2 is learned as a_B is, q in the place of the BSDF and p_2 in that of the tree. So a view without
-/// evidence leaves its region as it is, and views that are shared by many regions take nothing from what each of those
-/// knows.
+/// Probability a_2 of sampling T2 at vertices with a view. The alternative is q = a_B p_B + (1 - a_B) p_1, the mixture
+/// that the region learns on its own (mixture.h). A direction is drawn from p_s = a_2 p_2 + (1 - a_2) q, and a_2 is
+/// learned as a_B is, with q in place of the BSDF and p_2 in place of the tree. So a view without evidence leaves its
+/// region unchanged, and a view shared by many regions does not affect what each of them has learned.
 
-/// How much better a mixture with so much of q fits the histogram than q alone: nats per record, about twice the
-/// relative excess of variance where it is small. 0 for an empty histogram.
+/// Gain of a mixture with a share `others` of q over q alone, by the fit to the histogram: nats per record, about twice
+/// the relative excess of variance while small. 0 for an empty histogram.
 double view_gain(const MixtureHistogram& histogram, double others);
 
-/// The coordinator's memory of views from pass to pass.
+/// Learner of views.
 class ViewLearner {
   public:
-    /// Adds what the pass over `tree` recorded; returns advice about its views, for refine(). A T2 gets a second
-    /// chance, but for the `last_update`.
+    /// Adds the records of the pass over `tree`. Returns advice about its views, for refine(). A T2 gets a second
+    /// chance, except in the `last_update`.
     std::vector<ViewAdvice> judge(const SdTree& tree, const CellSums& sums, bool last_update);
     /// Sets the fractions of the refined tree's views. `origins` as in RefineReport.
     void set_fractions(std::span<const ViewOrigin> origins, SdTree& next);
 
-    /// Lists what it remembers, for a checkpoint.
+    /// Archives the state, for a checkpoint.
     template <class Archive>
     void serialize(Archive& archive) {
         archive(views_);
@@ -37,16 +36,16 @@ class ViewLearner {
 
   private:
     struct Evidence {
-        MixtureHistogram histogram{};  ///< in what it records, not in quanta
-        int idle_passes = 0;           ///< in which T2 was hardly worth sampling
-        double others = 1.0;           ///< the part of q
+        MixtureHistogram histogram{};  ///< sums in the unit of records, not in quanta
+        int idle_passes = 0;           ///< passes in which T2 was hardly worth sampling
+        double others = 1.0;           ///< share of q
 
         template <class Archive>
         void serialize(Archive& archive) {
             archive(histogram, idle_passes, others);
         }
     };
-    std::vector<Evidence> views_;  ///< of the coming tree
+    std::vector<Evidence> views_;  ///< of the next tree
 };
 
 }  // namespace treefarm

@@ -8,13 +8,13 @@ namespace {
 
 constexpr std::int32_t kSteps = 1 << kDirectionBits;
 
-/// A mask of all ones where the lowest bit is set.
+/// All ones if the lowest bit is set, else 0.
 std::int32_t mask_of(std::int32_t bit) {
     return -(bit & 1);
 }
 
-/// Code of a point of the direction square, given in steps and possibly up to half the square beyond an edge: there the
-/// octahedral map goes on at the mirrored place of the same edge.
+/// Code of a point of the direction square, in steps, possibly up to half the square beyond an edge: there the
+/// octahedral map continues at the mirrored point of the same edge.
 [[gnu::always_inline]] inline std::uint32_t folded_code(std::int32_t x, std::int32_t y) {
     const auto fold = [](std::int32_t& across, std::int32_t& along) {
         const std::int32_t beyond = mask_of(across >> kDirectionBits);
@@ -26,7 +26,7 @@ std::int32_t mask_of(std::int32_t bit) {
     return spread_bits(static_cast<std::uint32_t>(x)) | (spread_bits(static_cast<std::uint32_t>(y)) << 1);
 }
 
-/// A place among `size` steps, by 16 random bits.
+/// Uniform position among `size` steps, from 16 random bits.
 std::int32_t scaled(std::uint32_t random, std::int32_t size) {
     return static_cast<std::int32_t>(random * static_cast<std::uint32_t>(size) >> 16);
 }
@@ -50,7 +50,7 @@ void BoxBlock::find_lines(std::uint32_t count) {
     }
 }
 
-/// Parts are counted from the record's own: across the vertical line, the horizontal one, or both.
+/// Parts are numbered from the record's own: across the vertical line, the horizontal one, or both.
 template <std::uint32_t kPart>
 std::uint64_t BoxBlock::cut_part(std::uint32_t count) {
     std::int32_t capped = 0;

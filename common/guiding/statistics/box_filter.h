@@ -9,15 +9,16 @@
 
 namespace treefarm {
 
-/// The box filter over directions: a square of the size of the record's cell around the record overlaps two by two
-/// squares of the grid of that size. Each gets its share; where it is cut finer, at a point drawn from the overlap, so
-/// that the expectation is that of the box. A block of records is cut side by side, in vector registers.
+/// Box filter over directions: a square around the record, of the size of its cell, overlaps two by two squares of the
+/// grid of that size. Each part goes to one cell: where the grid is finer, to that of a point drawn from the overlap,
+/// so that the expectation is that of the box. A block of records is processed side by side, in vector registers.
 class BoxBlock {
   public:
     static constexpr std::uint32_t kRecords = 32;
     static constexpr std::uint32_t kParts = 4;
 
-    /// `side` of the record's cell, in steps of the direction square; `exponent` of its distribution's quanta.
+    /// `side`: side of the record's cell, in steps of the direction square; `exponent`: that of its distribution's
+    /// quanta.
     void set(std::uint32_t i, const Record& record, std::uint32_t side, int exponent) {
         code_[i] = record.code;
         rounding_[i] = record.rounding;
@@ -26,10 +27,10 @@ class BoxBlock {
         per_value_[i] = exact_power_of_two(-exponent);
     }
 
-    /// Cuts the first `count` records, all set. Returns how many parts were capped.
+    /// Divides the first `count` records, which must be set. Returns the number of capped parts.
     std::uint64_t cut(std::uint32_t count);
 
-    /// Part 0 lies in the record's own cell.
+    /// Quanta of a part; part 0 is in the record's own cell.
     std::uint64_t quanta(std::uint32_t part, std::uint32_t i) const {
         return static_cast<std::uint64_t>(static_cast<std::int64_t>(quanta_[part][i]));
     }
@@ -48,8 +49,7 @@ class BoxBlock {
     alignas(32) Lanes<float> value_{};
     alignas(32) Lanes<std::int32_t> side_{};
     alignas(32) Lanes<double> per_value_{};
-    // Corner of the square, how much of it lies before the line of the grid that crosses it, and on which side the
-    // record is.
+    // Corner of the square, its extent before the grid line that crosses it, and the record's side of that line.
     alignas(32) Lanes<std::int32_t> left_{}, top_{}, before_x_{}, before_y_{};
     alignas(32) Lanes<std::uint32_t> own_{};
     alignas(32) std::array<Lanes<double>, kParts> quanta_{};

@@ -18,28 +18,28 @@ namespace treefarm {
 
 /// Records in the order of their distributions.
 struct RecordOrder {
-    std::vector<std::uint32_t> records;  ///< their indices in the log
-    std::vector<std::uint32_t> ends;     ///< per distribution: where among `records` the next one's begin
+    std::vector<std::uint32_t> records;  ///< indices in the log
+    std::vector<std::uint32_t> ends;     ///< per distribution: index in `records` at which the next one begins
 };
 
-/// Counting sort: a unit has many records for few distributions.
+/// Order by counting sort: a unit has many records for few distributions.
 RecordOrder order_by_distribution(std::span<const Record> records, std::size_t distributions);
 
-/// Whether a sampler's cells learn means of their records, rather than sums.
+/// Whether a sampler's cells learn means of their records instead of sums.
 template <class Sampler>
 constexpr bool counts_visits() {
     if constexpr (requires { Sampler::kCountsVisits; }) return Sampler::kCountsVisits;
     return false;
 }
 
-/// Adds the records of finished work to a worker's sums per cell. Threads keep a log each while they trace and commit
-/// it once per unit: in the order of distributions, so that a stripe of them is locked once for many records and cells
-/// are found in cache.
+/// Adds the records of finished work to a worker's sums per cell. Each thread fills a log while it traces and commits
+/// it once per unit, ordered by distribution: so a stripe of distributions is locked once for many records, and cells
+/// are found in the cache.
 ///
-/// A `Sampler` that has cells is a RegionSampler that gives the cell() of a direction's code in a distribution, the
-/// cell's side (cell_side()) and cell_count(), and fetches ahead what cell() reads: prefetch_pdf(), then
-/// prefetch_pdf_cell(). One that learns means per cell says so, by a constant kCountsVisits that is true: its records
-/// count for the cells of their directions, over which no filter spreads them.
+/// A `Sampler` with cells is a RegionSampler that provides cell() (the cell of a direction's code in a distribution),
+/// cell_side(), cell_count(), and prefetch_pdf() and prefetch_pdf_cell(), which fetch the data that cell() reads. A
+/// sampler whose cells learn means has a constant kCountsVisits that is true: its records count only for the cells of
+/// their directions, without a filter.
 template <class Sampler>
 class CellAccumulator {
   public:
@@ -48,14 +48,14 @@ class CellAccumulator {
                     bool with_mixture = false)
         : guide_(guide), filter_(filter), with_mixture_(with_mixture), sums_(pass, shape()) {}
 
-    /// Adds a unit's records, the vertex counts per distribution and the sums of direct light per region, where it is
-    /// decided. Thread-safe.
+    /// Adds a unit's records, its vertex counts per distribution, and its sums of direct light per region if these are
+    /// needed. Thread-safe.
     void commit(std::span<const Record> records, std::span<const std::uint32_t> counts, const UpdateCaps& caps,
                 std::span<const NextEventSums> next_event = {});
 
-    /// Hands out the sums and starts again from zero. No commit may be in flight.
+    /// Moves the sums out and starts again from zero. Must not run during a commit.
     CellSums take();
-    /// Gives back what was handed out, cleared: the next take() need not make it anew. Not while take() runs.
+    /// Takes cleared sums back for reuse by the next take(). Must not run during take().
     void give_back(CellSums cleared);
 
   private:
@@ -65,7 +65,7 @@ class CellAccumulator {
     /// Cell of each record of a block.
     using BlockCells = std::array<std::uint32_t, BoxBlock::kRecords>;
 
-    /// Quanta for the cells of so many codes.
+    /// Quanta for the cells of several codes.
     struct Overlaps {
         static constexpr std::uint32_t kMost = BoxBlock::kRecords * (BoxBlock::kParts - 1);
         std::uint32_t count = 0;
@@ -75,7 +75,7 @@ class CellAccumulator {
 
     template <class DistributionOf, class CodeOf>
     void find_cells(std::uint32_t count, DistributionOf distribution, CodeOf code, std::span<std::uint32_t> cells);
-    /// Copies the records at the first `count` of `indices`, and has as many that follow fetched meanwhile.
+    /// Copies the records at the first `count` of `indices`, and prefetches the records that follow.
     static void gather(std::span<const Record> records, std::span<const std::uint32_t> indices, std::size_t count,
                        std::array<Record, BoxBlock::kRecords>& block) {
         const std::size_t last = indices.size() - 1;
@@ -111,12 +111,13 @@ class CellAccumulator {
     const DirectionalFilter filter_;
     const bool with_mixture_;
     CellSums sums_;
-    std::optional<CellSums> spare_;  ///< all zero
+    std::optional<CellSums> spare_;  ///< cleared sums for reuse
     std::mutex caps_lock_;
     std::array<std::mutex, kStripes> stripe_locks_;
 };
 
-/// The cells of `count` codes, and their sums fetched. Each step fetches for all what the next one reads.
+/// Computes the cells of `count` codes and prefetches their sums. Each step prefetches, for all codes, the data of the
+/// next step.
 template <class Sampler>
 template <class DistributionOf, class CodeOf>
 void CellAccumulator<Sampler>::find_cells(std::uint32_t count, DistributionOf distribution, CodeOf code,
@@ -175,7 +176,7 @@ void CellAccumulator<Sampler>::add_boxes(std::span<const Record> records, const 
         add_to_cell(others.cell[i], others.quanta[i], met);
 }
 
-/// Adds what the mixture, or next event, learns of a record.
+/// Adds the contribution of a record to the statistics of mixture or next event.
 template <class Sampler>
 void CellAccumulator<Sampler>::add_reflected(const Record& record, UpdateCaps& met) {
     if (record.bin >= kLightBin) {
@@ -198,7 +199,7 @@ void CellAccumulator<Sampler>::commit(std::span<const Record> records, std::span
     const std::size_t distributions = counts.size();
     const RecordOrder order = order_by_distribution(records, distributions);
 
-    // Consecutive distributions share a stripe: ordered records walk through the stripes once.
+    // Consecutive distributions share a stripe: ordered records visit each stripe once.
     const std::size_t stripe_size = (distributions + kStripes - 1) / kStripes;
     UpdateCaps met = caps;
     std::array<Record, BoxBlock::kRecords> block;

@@ -8,10 +8,11 @@
 namespace treefarm {
 namespace {
 
-/// Cap of what one next-event sample brings: more weighs as much, which only makes its emitter a little less popular.
+/// Cap of the contribution of one next-event sample; a larger one counts as this, which makes its emitter slightly less
+/// likely.
 constexpr double kMostLightUnits = 0x1p38;
 
-/// Entries of a sparse list: (distance to the last index, value), both varints; calls `visit(index, value)`.
+/// Reads a sparse list: pairs (distance from the previous index, value), both varints. Calls visit(index, value).
 template <class Visit>
 void read_sparse(ByteReader& in, std::size_t limit, const char* what, Visit visit) {
     const std::size_t count = in.get_count(2);
@@ -115,7 +116,7 @@ Bytes CellSums::encode() const {
 }
 
 std::uint64_t CellSums::merge_encoded(std::span<const std::uint8_t> update) {
-    // Two readings: the first only checks, so that a bad message changes nothing.
+    // Two readings: the first only checks, so that a malformed message changes nothing.
     const auto read = [&](auto&& on_count, auto&& on_cell, auto&& on_mixture, auto&& on_light, auto&& on_visits,
                           auto&& on_next_event) {
         ByteReader in(update);
@@ -166,7 +167,7 @@ Record light_record(std::uint32_t region, int quantum_exponent, std::uint8_t clu
     const auto x = static_cast<double>(reflected);
     const double units =
         x * x * static_cast<double>(chosen) * exact_power_of_two(-light_sum_exponent(quantum_exponent));
-    // Half of a unit rounds up: among 2^16 no randomness is needed.
+    // Halves round up: with 2^16 units per record no randomness is needed.
     return {region,
             0,
             std::uint32_t{1} << 31,

@@ -17,30 +17,31 @@ namespace treefarm {
 
 /// Bins of the mixture histogram of a region (mixture.h) and of a view (view_mixture.h).
 inline constexpr int kMixtureBins = 16;
-/// Records with this bin and above are none of the mixture: what next event found in cluster `bin - kLightBin`.
+/// First bin of records of next event: `bin - kLightBin` is the emitter's cluster; such records are not for the
+/// mixture.
 inline constexpr std::uint8_t kLightBin = 64;
 
-/// A path vertex's record for a distribution: `value` of radiance arrived from the direction `code`.
+/// Record of a path vertex for a distribution: radiance `value` arriving from the direction `code`.
 struct Record {
     std::uint32_t distribution;
     std::uint32_t code;      ///< Z-order code of the direction
     std::uint32_t rounding;  ///< uniform bits of the keyed generator, for stochastic rounding
-    float value;             ///< L / p (or what else the tree's target is), >= 0 and finite
-    float reflected = 0.0f;  ///< f |cos| L / p, >= 0 and finite: what the mixture learns from
-    std::uint8_t bin = 0;    ///< of the mixture histogram, or kLightBin and a cluster
-    bool visit = false;      ///< counts for its cell, where cells learn means
+    float value;             ///< L / p (or another target of guiding), >= 0 and finite
+    float reflected = 0.0f;  ///< f |cos| L / p, >= 0 and finite; the mixture learns from it
+    std::uint8_t bin = 0;    ///< of the mixture histogram, or kLightBin plus a cluster
+    bool visit = false;      ///< counts as a visit of its cell, if cells learn means
 };
 
-/// Second moments of emitters are counted in units of 2^light_sum_exponent(e), where records are in units of 2^e: one
-/// like the average record is then 2^16 units, and sums hold from 2^-8 to 2^11 times what the average is.
+/// Exponent of the unit of emitters' second moments, for records in units of 2^e: a sample like the mean record is 2^16
+/// units, and sums hold from 2^-8 to 2^11 times the mean.
 inline constexpr int light_sum_exponent(int quantum_exponent) {
     return 2 * quantum_exponent + kMeanRecordBits;
 }
 
-/// The record of a next-event sample of `cluster`, chosen with the probability `chosen`, that brought `reflected`.
+/// Record of a next-event sample of `cluster`, chosen with probability `chosen`, with the contribution `reflected`.
 Record light_record(std::uint32_t region, int quantum_exponent, std::uint8_t cluster, float chosen, float reflected);
 
-/// Caps that were met. Nothing is dropped silently: they travel with the update and are reported.
+/// Counts of limits that were reached. They are sent with the update and reported.
 struct UpdateCaps {
     std::uint64_t capped_records = 0;     ///< contributions above 2^40 quanta
     std::uint64_t saturated_cells = 0;    ///< sums that reached 2^64 - 1
@@ -50,14 +51,14 @@ struct UpdateCaps {
     bool operator==(const UpdateCaps&) const = default;
 };
 
-/// Shape of a CellSums: how much there are sums for, and of which kinds.
+/// Shape of a CellSums: numbers of cells, distributions and regions, and kinds of sums.
 struct SumsShape {
     std::uint32_t regions = 0;
     std::uint32_t views = 0;
     std::uint32_t cells = 0;
     bool with_mixture = false;     ///< mixture histograms: kMixtureBins more sums per distribution
     bool with_lights = false;      ///< sums of emitters: kLightClusters more sums per region
-    bool with_visits = false;      ///< records per cell that count: one more sum per cell
+    bool with_visits = false;      ///< visits of cells: one more sum per cell
     bool with_next_event = false;  ///< sums of direct light: kNextEventSums more per region
 
     SumsShape() = default;
@@ -73,13 +74,14 @@ struct SumsShape {
     bool operator==(const SumsShape&) const = default;
     std::size_t light_sums() const { return with_lights ? std::size_t{regions} * kLightClusters : 0; }
     std::size_t next_event_sums() const { return with_next_event ? std::size_t{regions} * kNextEventSums : 0; }
-    /// Index of a distribution's first mixture bin; that of the distribution after the last is the number of bins.
+    /// Index of a distribution's first mixture bin. For the distribution after the last it is the number of bins.
     std::size_t mixture_begin(std::uint32_t distribution) const {
         return with_mixture ? std::size_t{distribution} * kMixtureBins : 0;
     }
 };
 
-/// Dense sums over the cells and distributions of one model, exact integers: adding is order-free and split == whole.
+/// Dense sums over the cells and distributions of one model. Exact integers, so addition in any order gives the same
+/// bits.
 class CellSums {
   public:
     CellSums() = default;
@@ -89,30 +91,30 @@ class CellSums {
 
     std::uint32_t pass() const { return pass_; }
     const LargeTable<std::uint64_t>& cells() const { return cells_; }
-    /// Recorded vertices per distribution, those without radiance included.
+    /// Recorded vertices per distribution, including those without radiance.
     const std::vector<std::uint64_t>& counts() const { return counts_; }
-    /// The mixture histogram of a distribution; empty where no mixture is learned.
+    /// Mixture histogram of a distribution; empty if no mixture is learned.
     std::span<const std::uint64_t> mixture(std::uint32_t distribution) const {
         const std::size_t begin = shape_.mixture_begin(distribution);
         return {mixture_.data() + begin, shape_.mixture_begin(distribution + 1) - begin};
     }
-    /// Second moments of what next event found in a region, per cluster of emitters; empty where that is not learned.
+    /// Second moments of next event in a region, per cluster of emitters; empty if not learned.
     std::span<const std::uint64_t> lights(std::uint32_t region) const {
         if (!shape_.with_lights) return {};
         return {lights_.data() + std::size_t{region} * kLightClusters, kLightClusters};
     }
-    /// Direct light of a region; empty where nothing is decided on it.
+    /// Sums of direct light of a region; empty if no decision needs them.
     std::span<const std::uint64_t> next_event(std::uint32_t region) const {
         if (!shape_.with_next_event) return {};
         return {next_event_.data() + std::size_t{region} * kNextEventSums, kNextEventSums};
     }
-    /// Records per cell that count; empty where that is not asked for.
+    /// Visits per cell; empty if not needed.
     const LargeTable<std::uint64_t>& visits() const { return visits_; }
     const SumsShape& shape() const { return shape_; }
     const UpdateCaps& caps() const { return caps_; }
 
     void add_count(std::uint32_t distribution, std::uint64_t count) { counts_[distribution] += count; }
-    /// Adds to one cell; false where the sum would pass 2^64 - 1 and stays there (the caller counts it).
+    /// Adds to a cell. False if the sum exceeds 2^64 - 1 and stays there (the caller counts it).
     bool add_quanta(std::uint32_t cell, std::uint64_t quanta) { return add_saturating(cells_[cell], quanta); }
     void prefetch_cell(std::uint32_t cell) const { prefetch_line(&cells_[cell]); }
     void prefetch_mixture(std::uint32_t distribution) const {
@@ -133,8 +135,8 @@ class CellSums {
 
     /// Sparse form: only cells and counts that are not zero (docs/design/protocol.md, "tree update").
     Bytes encode() const;
-    /// Adds an encoded update, checking pass, order and range of every entry before anything is added; FormatError
-    /// otherwise. Returns the number of touched cells.
+    /// Adds an encoded update. Pass, order and range of every entry are checked first; throws FormatError. Returns the
+    /// number of touched cells.
     std::uint64_t merge_encoded(std::span<const std::uint8_t> update);
 
     bool operator==(const CellSums&) const = default;
@@ -150,24 +152,23 @@ class CellSums {
     UpdateCaps caps_;
 };
 
-/// Cap of one contribution, in quanta: leaves 2^24 capped ones before a cell saturates.
+/// Cap of one contribution, in quanta: 2^24 capped ones fit in a cell.
 inline constexpr double kMostQuanta = 0x1p40;
 
-/// value * per_value as a whole number, rounded up with the probability of its fraction, so that the expectation is
-/// exact; at most kMostQuanta. `per_value`, a power of two: scaling a float by it in double loses nothing, nor does
-/// splitting off the integer part.
+/// Value value * per_value rounded stochastically to an integer, so that the expectation is exact; at most kMostQuanta.
+/// `per_value`: a power of two, so that scaling in double and splitting off the integer part are exact.
 inline double whole_quanta(float value, double per_value, std::uint32_t random) {
     const double quanta = static_cast<double>(value) * per_value;
     const double whole = std::floor(quanta);
-    // An unsigned number is converted as a signed one, for which there are vector instructions.
+    // Signed conversion, for which vector instructions exist.
     const double threshold = static_cast<double>(static_cast<std::int32_t>(random ^ 0x80000000u)) * 0x1p-32 + 0.5;
     return quanta < kMostQuanta ? whole + (threshold < quanta - whole ? 1.0 : 0.0) : kMostQuanta;
 }
 
-/// value / 2^exponent by whole_quanta(). Above 2^40 quanta it is capped and `capped` is raised.
+/// Value value / 2^exponent rounded by whole_quanta(). Above 2^40 quanta it is capped and `capped` is set.
 inline std::uint64_t quantise(float value, int exponent, std::uint32_t random, bool& capped) {
     const double quanta = whole_quanta(value, exact_power_of_two(-exponent), random);
-    capped = capped || quanta >= kMostQuanta;  // a float beyond 2^24 is whole: rounding does not bring it there
+    capped = capped || quanta >= kMostQuanta;  // a float beyond 2^24 is an integer: rounding does not bring it there
     return static_cast<std::uint64_t>(static_cast<std::int64_t>(quanta));
 }
 

@@ -5,28 +5,28 @@
 
 namespace treefarm {
 
-/// Into which region of the tree a record goes.
+/// Region that a record is added to.
 enum class SpatialFilter : std::uint8_t {
-    nearest,     ///< that of its position
-    stochastic,  ///< that of its position moved by up to half the region's size
+    nearest,     ///< the region of its position
+    stochastic,  ///< the region of its position moved by up to half the region's size
 };
 
-/// How a record spreads over a region's directional cells.
+/// Distribution of a record over a region's directional cells.
 enum class DirectionalFilter : std::uint8_t {
-    nearest,  ///< all of it into the cell of its direction
-    box,      ///< over a square of that cell's size around its direction
+    nearest,  ///< the whole record goes to the cell of its direction
+    box,      ///< the record spreads over a square of that cell's size around its direction
 };
 
-/// The quantity in proportion to which a region's cells are sampled.
+/// Quantity in proportion to which a region's cells are sampled.
 enum class GuidingTarget : std::uint8_t {
-    radiance,  ///< their mean radiance: sums of L / p
-    variance,  ///< the square root of their second moment, from sums of L^2 / p (Rath et al. 2020)
+    radiance,  ///< mean radiance, from sums of L / p
+    variance,  ///< square root of the second moment, from sums of L^2 / p (Rath et al. 2020)
 };
 
-/// What view-dependent vertices teach.
+/// Records of view-dependent vertices.
 enum class ViewRecords : std::uint8_t {
-    radiance,  ///< their view the radiance that arrives, their region nothing: as published
-    product,   ///< their view what it reflects of that, their region the radiance
+    radiance,  ///< incident radiance for the view, nothing for the region: as published
+    product,   ///< reflected radiance for the view, incident radiance for the region
 };
 
 }  // namespace treefarm

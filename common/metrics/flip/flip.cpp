@@ -11,12 +11,12 @@ namespace treefarm {
 namespace {
 
 // Andersson et al. 2020.
-constexpr float kColourExponent = 0.7f;  ///< q_c: compresses large differences of colour
-constexpr float kKnee = 0.4f;            ///< p_c: differences below this share of the greatest
-constexpr float kKneeValue = 0.95f;      ///< p_t: differences below kKnee take the errors up to this one
+constexpr float kColourExponent = 0.7f;  ///< q_c: compresses large colour differences
+constexpr float kKnee = 0.4f;            ///< p_c: position of the knee, as a share of the greatest difference
+constexpr float kKneeValue = 0.95f;      ///< p_t: error at the knee
 constexpr float kFeatureScale = 0.70710678f;
 
-/// An image as a viewer perceives it.
+/// Image in the perceptual space of FLIP.
 struct Percept {
     Plane lightness, a, b;  ///< CIELAB with Hunt effect, blurred by contrast sensitivity
     Plane edges, points;    ///< magnitudes of the first and second derivative of luminance
@@ -83,12 +83,12 @@ float compressed_distance(const Vec3& p, const Vec3& q) {
     return std::pow(hyab_distance(p, q), kColourExponent);
 }
 
-/// The greatest distance that a screen can show: between green and blue.
+/// Greatest colour distance on a screen: from green to blue.
 float greatest_distance() {
     return compressed_distance(rgb_to_hunt_lab({0.0f, 1.0f, 0.0f}), rgb_to_hunt_lab({0.0f, 0.0f, 1.0f}));
 }
 
-/// Two straight pieces over [0, greatest] that meet at the knee.
+/// Colour error: two linear pieces over [0, greatest] that meet at the knee.
 float colour_error(float distance, float greatest) {
     const float knee = kKnee * greatest;
     if (distance < knee) return distance * (kKneeValue / knee);

@@ -13,15 +13,15 @@ namespace {
 constexpr double kScale = 0.6;
 constexpr double k0 = kScale * kScale * 2.51, k1 = kScale * 0.03;
 constexpr double k2 = kScale * kScale * 2.43, k3 = kScale * 0.59, k4 = 0.14;
-constexpr double kShown = 0.85;  ///< what the brightest and the median luminance are shown as
+constexpr double kShown = 0.85;  ///< tone-mapped value of the brightest or the median luminance
 
-/// The positive x with y(x) = kShown: the larger root of a quadratic.
+/// Positive x with y(x) = kShown: the larger root of a quadratic.
 double shown_radiance() {
     const double a = k0 - kShown * k2, b = k1 - kShown * k3, c = -kShown * k4;
     return (-b + std::sqrt(b * b - 4.0 * a * c)) / (2.0 * a);
 }
 
-/// Luminances of the pixels that are finite.
+/// Luminances of the finite pixels.
 std::vector<double> luminances(const RgbImage& image) {
     std::vector<double> values;
     values.reserve(image.pixels.size());
@@ -34,7 +34,7 @@ double greatest(const std::vector<double>& values) {
     return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
 }
 
-/// The median, of an even number the upper one, as in the authors' program.
+/// Median; the upper one of an even number, as in the authors' program.
 double upper_median(std::vector<double>& values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
@@ -53,7 +53,7 @@ RgbImage shown(const RgbImage& image, double exposure) {
 }  // namespace
 
 float tone_map(double radiance) {
-    const double x = std::clamp(radiance, 0.0, 1e6);  // beyond, all is white, and squares could overflow
+    const double x = std::clamp(radiance, 0.0, 1e6);  // beyond, the result is white, and squares could overflow
     return static_cast<float>(std::min((k0 * x + k1) * x / ((k2 * x + k3) * x + k4), 1.0));
 }
 

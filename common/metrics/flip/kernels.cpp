@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPi2 = std::numbers::pi * std::numbers::pi;
 
-/// A term a sqrt(pi / b) exp(-pi^2 d^2 / b) of the contrast sensitivity at d degrees from the centre; b in square
+/// Term a sqrt(pi / b) exp(-pi^2 d^2 / b) of the contrast sensitivity at d degrees from the centre; b in square
 /// degrees.
 struct Sensitivity {
     double a, b;
@@ -20,14 +20,14 @@ struct Sensitivity {
 // Andersson et al. 2020.
 constexpr Sensitivity kAchromatic{1.0, 0.0047}, kRedGreen{1.0, 0.0053};
 constexpr Sensitivity kBlueYellow[2] = {{34.1, 0.04}, {13.5, 0.025}};
-constexpr double kFeatureWidth = 0.082;  ///< degrees: width of the edges and points that are looked for
+constexpr double kFeatureWidth = 0.082;  ///< degrees: width of the edges and points to be detected
 
-/// Out to three standard deviations of the widest term, for all alike.
+/// Radius in pixels of all kernels: three standard deviations of the widest term.
 int sensitivity_radius(double ppd) {
     return static_cast<int>(std::ceil(3.0 * std::sqrt(kBlueYellow[0].b / (2.0 * kPi2)) * ppd));
 }
 
-/// Square root of the term's weight along one axis: its square is the weight of the two-dimensional term.
+/// Square roots of the term's weights along one axis; the term's two-dimensional weight is their product.
 std::vector<double> axis_weights(const Sensitivity& term, double ppd) {
     const int radius = sensitivity_radius(ppd);
     std::vector<double> weights;
@@ -54,7 +54,7 @@ Kernel normalised(const std::vector<double>& weights) {
     return divided(weights, sum(weights));
 }
 
-/// Scales the positive weights to sum 1, the negative ones to sum -1.
+/// Scales the positive weights to sum 1 and the negative ones to sum -1.
 Kernel balanced(const std::vector<double>& weights) {
     double positive = 0.0, negative = 0.0;
     for (const double w : weights)

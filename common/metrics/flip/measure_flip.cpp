@@ -12,7 +12,7 @@ namespace {
 
 struct FinitePair {
     RgbImage image, reference;
-    std::vector<std::size_t> replaced;  ///< pixels that were not finite in both
+    std::vector<std::size_t> replaced;  ///< pixels that are not finite in both images
 };
 
 FinitePair replace_invalid(const RgbImage& image, const RgbImage& reference) {

@@ -6,11 +6,11 @@
 
 namespace treefarm {
 
-/// Figures of a FLIP map over the pixels that are not NaN; undefined (NaN) where there is none.
+/// Statistics of a FLIP map over its pixels that are not NaN; NaN if there are none.
 struct FlipFigures {
     double mean = ErrorMetrics::kUndefined;
-    /// The value up to which the errors, from the least on, make up half of their sum: what the publication reports
-    /// beside the mean, since many small errors do not hide few large ones in it.
+    /// Weighted median: errors up to this value, in ascending order, make up half of the sum of all. The publication
+    /// reports it beside the mean, since many small errors do not hide a few large ones in it.
     double weighted_median = ErrorMetrics::kUndefined;
     double max = ErrorMetrics::kUndefined;
 };
@@ -20,13 +20,13 @@ struct FlipMetrics {
     ExposureRange exposures;
     Plane hdr_map;  ///< NaN where a pixel is NaN or infinite in either image
     FlipFigures hdr;
-    FlipFigures ldr;  ///< of the images as shown without tone curve, clamped to [0, 1]
+    FlipFigures ldr;  ///< of the images clamped to [0, 1], without tone curve
 };
 
 FlipFigures flip_figures(const Plane& map);
 
-/// Pixels that are NaN or infinite in either image are left out; for the filters of their neighbours both show the
-/// reference there, or black. `ppd` in [1, 1000]. Throws InputError if the sizes differ.
+/// FLIP of two images. Pixels that are NaN or infinite in either image are left out; the filters of their neighbours
+/// see the reference there, or black. `ppd` in [1, 1000] pixels per degree. Throws InputError if the sizes differ.
 FlipMetrics measure_flip(const RgbImage& image, const RgbImage& reference, double ppd = kDefaultPixelsPerDegree);
 
 }  // namespace treefarm

@@ -8,7 +8,7 @@ namespace treefarm {
 
 namespace {
 
-/// out[x] = sum over k of weights[k] rows[k][x], in blocks whose sums stay in registers.
+/// Weighted sum out[x] = sum over k of weights[k] rows[k][x], in blocks whose sums stay in registers.
 void weighted_sum(const std::vector<const float*>& rows, const Kernel& weights, std::span<float> out) {
     constexpr std::size_t kBlock = 16;  // two registers of AVX2; GCC 12 keeps larger ones in memory
     std::size_t x = 0;
@@ -27,7 +27,7 @@ void weighted_sum(const std::vector<const float*>& rows, const Kernel& weights, 
     }
 }
 
-/// Filters rows along themselves.
+/// Filter of rows along x.
 class AcrossFilter {
   public:
     AcrossFilter(int width, const Kernel& kernel) : kernel_(kernel), rows_(kernel.size()) {
@@ -54,7 +54,7 @@ class AcrossFilter {
 Plane filter_separable(const Plane& plane, const Kernel& across, const Kernel& down) {
     const int size = static_cast<int>(down.size()), radius = size / 2;
     AcrossFilter filter(plane.width, across);
-    Plane window(plane.width, size);  // row y of the plane, filtered across, lies in row y % size
+    Plane window(plane.width, size);  // row y of the plane, filtered across, is row y % size
     Plane result(plane.width, plane.height);
     std::vector<const float*> rows(down.size());
     int filtered = 0;

@@ -31,7 +31,7 @@ struct MakeIsotropic : IgnoreFields {
     }
 };
 
-/// A kind that light passes through says what it is without that; all others say nothing.
+/// Opaque form of a material that transmits light; empty for other materials.
 std::optional<MaterialKind> opaque_form(const Material& material) {
     return std::visit(
         [](const auto& kind) -> std::optional<MaterialKind> {
@@ -42,8 +42,8 @@ std::optional<MaterialKind> opaque_form(const Material& material) {
         material.bsdf);
 }
 
-/// Takes effects out of a scene and notes where they stood. Materials that no shape uses are left as they are: they
-/// are not simulated anyway.
+/// Removes effects from a scene and counts their uses. Materials that no shape uses stay unchanged: they are not
+/// simulated.
 class Remover {
   public:
     explicit Remover(Scene& scene) : scene_(scene), used_(used_materials(scene)) {}
@@ -163,7 +163,7 @@ class Remover {
     Location where_;
 };
 
-/// Takes the effect of this name out, as its row says.
+/// Removes the effect of this name, as its row says.
 void remove_effect(const std::string& name, Remover& remover) {
     for_each_effect([&](const auto& row) {
         if constexpr (kHasSwitch<decltype(row.off)>)

@@ -9,17 +9,17 @@
 
 namespace treefarm {
 
-/// An effect that the scene calls for and the job has forced off.
+/// An effect that the scene uses and the job has switched off.
 struct Approximation {
-    std::string effect;  ///< its name: "bump"
-    int uses = 0;        ///< places in the scene that called for it
-    Location where;      ///< the first of them
+    std::string effect;  ///< name: "bump"
+    int uses = 0;        ///< number of uses in the scene
+    Location where;      ///< the first use
     std::string text;    ///< one line: what the image shows in its place
 };
 
-/// Edits the scene so that the effects that job.effects.off names are not in it, and removes what nothing uses any
-/// more: what is off costs workers nothing. Returns what the scene lost by it, in the order of effect_switches(). An
-/// effect that the scene does not call for is no approximation.
+/// Removes the effects named in job.effects.off from the scene, and everything that is unused then, so that they cost
+/// workers nothing. Returns what the scene lost, in the order of effect_switches(); effects that the scene does not use
+/// are not listed.
 std::vector<Approximation> switch_effects_off(Scene& scene, const Job& job);
 
 }  // namespace treefarm

@@ -26,7 +26,7 @@ const char* next_event_name(NextEvent next_event) {
     return "";
 }
 
-/// Whether an effect goes off with another one, as the table has it.
+/// Whether an effect is switched off together with another one.
 constexpr bool is_part(std::string_view part, std::string_view whole) {
     return find_effect([&](const auto& row) {
                if constexpr (requires { row.off.whole; }) return part == row.text.name && whole == row.off.whole;
@@ -34,7 +34,7 @@ constexpr bool is_part(std::string_view part, std::string_view whole) {
            }) < kEffectCount;
 }
 
-/// The effect that a kind names as its own, or nothing.
+/// The effect that a kind declares as its own, or an empty name.
 template <class Kind>
 constexpr std::string_view own_effect() {
     if constexpr (requires { Kind::kTraits; })
@@ -45,7 +45,7 @@ constexpr std::string_view own_effect() {
         return {};
 }
 
-/// Whether the effects that kinds name are rows of their family, and each such row is the effect of a kind.
+/// Whether the effects that kinds declare are rows of their family, and every such row belongs to a kind.
 template <class Variant>
 constexpr bool kinds_have_rows(EffectFamily family) {
     bool all = true;
@@ -71,7 +71,7 @@ static_assert(kinds_have_rows<MaterialKind>(EffectFamily::materials) &&
 static_assert(kinds_have_rows<TextureKind>(EffectFamily::textures) &&
               rows_have_kinds<TextureKind>(EffectFamily::textures));
 
-/// Delta lights go off together, and so do environments.
+/// Whether delta lights are switched off together, and environments, too.
 constexpr bool emitters_go_off_with_their_type() {
     bool all = true;
     for_each_kind<EmitterKind>([&]<class Kind>() {
@@ -101,7 +101,7 @@ Effect effect_on(const std::string& reason, std::uint64_t bytes) {
 
 std::string plural(std::size_t count, const std::string& what) {
     if (count == 1) return "1 " + what;
-    // "mesh with normals": the word that counts is the first.
+    // In "mesh with normals" the first word is the noun.
     const std::size_t end = what.find(" with ");
     std::string word = what.substr(0, end);
     word += word.ends_with("sh") ? "es" : "s";
@@ -155,7 +155,7 @@ Effect EffectFinder::emitter_kind() const {
     const auto is = [](const Emitter& emitter) { return std::holds_alternative<Kind>(emitter.kind); };
     Effect effect = called_by(scene_.emitters, Kind::kTraits.title,
                               [&](const Emitter& emitter, std::size_t) { return is(emitter); });
-    // delta_lights counts those of its kinds.
+    // the effect delta_lights counts the bytes of its kinds
     if (Kind::kTraits.type != LightType::delta) effect.bytes = emitter_bytes(is);
     return effect;
 }

@@ -14,30 +14,29 @@ namespace treefarm {
 Effect effect_off(const std::string& reason);
 Effect effect_on(const std::string& reason, std::uint64_t bytes = 0);
 
-/// "1 disk", "2 disks", "2 meshes".
+/// Count with a noun: "1 disk", "2 disks", "2 meshes".
 std::string plural(std::size_t count, const std::string& what);
 
-/// Looks in a scene and its job for what calls for each effect. The rows of config/effects/table.h say what they ask
-/// it: its members without arguments are named as the effects whose state they find. The scene and the job must outlive
-/// it.
+/// Finds the effects that a scene and its job use. Rows of effects/table.h call its members; a member without arguments
+/// has the name of the effect that it finds. The scene and the job must outlive it.
 class EffectFinder {
   public:
     EffectFinder(const Scene& scene, const Resolved& job);
 
-    /// State, reason, place and bytes of an effect.
+    /// State, reason, location and bytes of an effect.
     template <class Find, class Off>
     Effect find(const EffectRow<Find, Off>& row) const {
         return row.find(*this);
     }
     Effect find(EffectId effect) const;
 
-    /// On if a material that is in use has a trait.
+    /// On if a material in use passes the test.
     template <class Test>
     Effect materials(const std::string& what, Test test) const {
         return called_by(scene_.materials, what,
                          [&](const Material& m, std::size_t i) { return used_[i] && test(own_traits(m)); });
     }
-    /// On if a kind that names the effect as its own is in use.
+    /// State of an effect that kinds declare as their own: on if such a kind is in use.
     Effect kind(EffectFamily family, std::string_view effect) const;
 
     Effect next_event() const;
@@ -64,7 +63,7 @@ class EffectFinder {
     Effect depth_limit() const;
     Effect strict_normals() const;
     Effect hidden_emitters() const;
-    /// The effect of what the program does not simulate: always off.
+    /// State of effects that the program does not simulate: always off.
     Effect never() const { return effect_off("not simulated by this program"); }
 
   private:
@@ -84,7 +83,7 @@ class EffectFinder {
     Effect shapes(const std::string& what, Test test) const {
         return called_by(scene_.shapes, what, [&](const Shape& shape, std::size_t) { return test(shape); });
     }
-    /// Shapes other than meshes, with what Embree keeps for each.
+    /// State for shapes other than meshes, with their memory in Embree.
     template <class Test>
     Effect objects(const std::string& what, Test test) const;
 
@@ -93,13 +92,13 @@ class EffectFinder {
     template <class Kind>
     Effect texture_kind() const;
 
-    /// With tables and images.
+    /// Bytes of emitters, tables and images included.
     std::uint64_t emitter_bytes(const std::function<bool(const Emitter&)>& test) const;
 
     const Scene& scene_;
     const Resolved& job_;
     const std::vector<bool> used_;      ///< per material
-    std::vector<bool> used_directly_;   ///< per material: a shape's own
+    std::vector<bool> used_directly_;   ///< per material: used by a shape directly
     std::vector<bool> texture_in_use_;  ///< per texture
 };
 

@@ -50,7 +50,7 @@ std::uint64_t normal_bytes(const Scene& scene) {
     return bytes;
 }
 
-/// Whether paths from the camera and from emitters are joined.
+/// Whether paths from the camera and from emitters are connected.
 bool connects(const Resolved& job) {
     return estimator_of(job.integrator.type).from == PathsFrom::both;
 }

@@ -7,23 +7,23 @@
 
 namespace treefarm {
 
-/// An effect as docs/generated/effects.md has it, made from its row (common/config/effects/table.h).
+/// Description of an effect for docs/generated/effects.md, from its row in common/config/effects/table.h.
 struct EffectDescription {
     std::string name;   ///< "bump"
     std::string group;  ///< "materials"
     std::string what;   ///< one line
-    std::string when;   ///< when it is on
-    std::string cost;   ///< in memory and in time
+    std::string when;   ///< condition under which it is on
+    std::string cost;   ///< cost in memory and in time
     bool simulated = true;
 };
 
-/// Every effect that the program knows, those that it never simulates last.
+/// All effects that the program knows; those that it never simulates come last.
 std::span<const EffectDescription> effect_table();
 
-/// Names of the effects that go off with this one: "point, spot or directional".
+/// Names of the effects that are switched off with this one: "point, spot or directional".
 std::string names_of_parts(std::string_view whole);
 
-/// A Markdown table of all effects, for docs/generated/effects.md.
+/// Markdown table of all effects, for docs/generated/effects.md.
 std::string effect_documentation();
 
 }  // namespace treefarm

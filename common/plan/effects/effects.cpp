@@ -11,7 +11,7 @@
 namespace treefarm {
 namespace {
 
-/// An effect that the edit of the scene has taken away says so, with the place that called for it.
+/// Marks an effect as switched off, with the location where the scene uses it.
 void tell_forced_off(Effect& after, const Effect& before, const std::vector<Approximation>& approximations) {
     if (!before.on || after.on || approximations.empty()) return;
     std::string by;
@@ -26,7 +26,8 @@ void tell_forced_off(Effect& after, const Effect& before, const std::vector<Appr
     after.where = before.where;
 }
 
-/// Splats are sums of what cannot be negative.
+/// Throws InputError for a film with negative weights and a job that splats, since splats are sums of values that
+/// cannot be negative.
 void refuse_signed_splats(const Film& film, const Job& job) {
     if (!estimator_of(job.integrator.type).splats() || !film.is_signed()) return;
     throw InputError(

@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 using Row = std::vector<std::string>;
 
-/// Columns as wide as their longest entry, the last as it comes.
+/// Table whose columns are as wide as their longest entry, except for the last.
 std::string aligned(const std::vector<Row>& rows) {
     std::vector<std::size_t> widths;
     for (const Row& row : rows) {
@@ -33,7 +33,7 @@ std::string aligned(const std::vector<Row>& rows) {
     return text;
 }
 
-/// "place" of an effect; those of the scene file itself without its name.
+/// Location of an effect as text, without the name of the scene file itself.
 std::string location_text(const Location& where, const std::string& scene) {
     std::string text = where.text();
     if (!scene.empty() && text.starts_with(scene + ":")) return "line " + text.substr(scene.size() + 1);
@@ -68,7 +68,7 @@ std::string memory_section(const char* whose, const std::vector<MemoryItem>& ite
     return std::string("\nmemory expected, ") + whose + ": " + bytes_text(total) + "\n" + aligned(rows);
 }
 
-/// Counted from 1, as in what a render says.
+/// Pass numbers, counted from 1 as in a render's messages.
 std::string passes_text(const std::vector<std::uint32_t>& passes) {
     if (passes.size() == 1) return "pass " + std::to_string(passes[0] + 1);
     return "passes " + std::to_string(passes.front() + 1) + " to " + std::to_string(passes.back() + 1);

@@ -6,19 +6,19 @@
 
 namespace treefarm {
 
-/// The part of the plan that the worker holds against what happens: effects for which code is left out, or kept out of
-/// line. In a debug build one that occurs although it is off here is an assertion.
+/// Effects that the worker's code depends on: code for other effects is skipped. In a debug build it is an assertion
+/// that an effect that is off here does not occur.
 struct SceneEffects {
     bool textures = false;  ///< of materials or area emitters
     bool masks = false;
-    bool bump = false;  ///< or normal maps
+    bool bump = false;  ///< bump or normal maps
     bool anisotropy = false;
     bool transmission = false;
     bool environment = false;
     bool lens = false;
 };
 
-/// The effects as the plan has them (EffectFinder).
+/// Finds the effects by EffectFinder.
 SceneEffects find_scene_effects(const Scene& scene, const Job& job);
 
 }  // namespace treefarm

@@ -5,8 +5,8 @@
 
 namespace treefarm {
 
-/// Removes from a scene what nothing in it uses (remove_unused), and the texture coordinates of meshes that nothing is
-/// looked up on. What is not there is neither broadcast nor held by workers.
+/// Removes everything unused from a scene (remove_unused), and the texture coordinates of meshes without textures, so
+/// that it is neither broadcast nor held by workers.
 void strip_scene(Scene& scene);
 
 }  // namespace treefarm

@@ -58,7 +58,7 @@ class OpenBudget {
         return make_pass(job_, 0, 0, std::min(unit, job_.budget.max_spp), unit >= job_.budget.max_spp);
     }
 
-    /// Fewer samples of a new tree would not count in the image.
+    /// Least samples per pixel of a pass: fewer samples of a new tree would not count in the image.
     double least_spp() const {
         const bool by_variance =
             job_.guides && job_.guiding.combination == Combination::inverse_variance && !job_.budget.strict;
@@ -71,13 +71,13 @@ class OpenBudget {
                         std::min(tuned("budget.least_tolerance"), tuned("budget.most_tolerance") * seconds));
     }
 
-    /// Seconds that an ending pass of so many samples per pixel is expected to take.
+    /// Expected seconds of an ending pass of so many samples per pixel.
     double seconds_of_pass(double spp) const {
         const int trees = outlook_->learning() ? 1 : 0;
         return outlook_->overhead_seconds() + spp * outlook_->seconds_per_spp(trees, false);
     }
 
-    /// The clock ends a strict render whose last tree nobody has tried yet, and there is time to try it.
+    /// Whether a strict render by time has a last tree that no pass has tried, and time to try it.
     bool needs_probe(const RenderHistory& state) const {
         const double left = job_.budget.seconds - state.seconds;
         return job_.budget.strict && job_.budget.seconds > 0 && !memory_.probed && outlook_->learning() &&
@@ -90,19 +90,19 @@ class OpenBudget {
         return job_.budget.strict || uncertain < worthwhile ? 1.0 : tuned("budget.hedge");
     }
 
-    /// Samples that a pass can have which takes this share of the time left.
+    /// Samples of a pass that takes this share of the time left.
     double by_time(const RenderHistory& state, double fraction) const {
         if (job_.budget.seconds == 0) return kUnlimited;
         const double left = job_.budget.seconds - state.seconds;
         if (left < kLeastLeft * tolerance()) return 0;
         const double of_one = seconds_of_pass(1) - seconds_of_pass(0);
         const double spp = std::floor(std::max(0.0, fraction * left - seconds_of_pass(0)) / of_one);
-        // The shortest pass may be a little too long: that may still be nearer to the budget than to stop here.
+        // The shortest pass may exceed the budget slightly: that may be nearer to it than to stop here.
         const double too_long = seconds_of_pass(least_spp()) - left;
         return too_long < std::min(left, kMostLate * tolerance()) ? std::max(spp, least_spp()) : spp;
     }
 
-    /// Samples that are still needed for the target.
+    /// Samples still needed for the target error.
     double by_error(const RenderHistory& state) const {
         const double target = job_.budget.error;
         const ErrorEstimate& error = state.error;
@@ -171,7 +171,7 @@ PassChooser passes_of(const Resolved& job, std::span<const PassPlan> begun) {
 std::vector<PassPlan> continued_passes(const Resolved& job, std::span<const PassPlan> begun) {
     std::vector<PassPlan> passes = plan_passes(job);
     const auto alike = [](const PassPlan& done, const PassPlan& plan) {
-        // A verdict on guiding ends the teaching of passes that were planned to.
+        // A verdict on guiding may have stopped the recording of passes that were planned to record.
         return plan.spp == done.spp && (plan.record == done.record || !done.guided);
     };
     if (begun.size() <= passes.size() && std::equal(begun.begin(), begun.end(), passes.begin(), alike)) return passes;
@@ -191,7 +191,7 @@ std::vector<PassPlan> continued_passes(const Resolved& job, std::span<const Pass
 
 bool misses_target(const Job& job, const ErrorEstimate& error) {
     if (job.budget.error == 0) return false;
-    // The length of a strict render is a forecast: it misses if its error is above the target beyond doubt.
+    // The length of a strict render is a forecast: it has missed only if the error is above the target beyond doubt.
     const double reached = job.budget.strict ? error.relative_low() : error.relative();
     return !error.known || !(reached <= job.budget.error);
 }

@@ -14,40 +14,40 @@ namespace treefarm {
 
 /// The next pass of a render, or its end.
 struct NextPass {
-    std::optional<PassPlan> pass;  ///< none: the render is done
-    std::uint32_t spp_total = 0;   ///< expected when all is done; 0: not known yet
-    std::size_t pass_count = 0;    ///< 0: not known yet
-    BudgetMemory memory{};         ///< for RenderHistory::budget, once the pass is finished
+    std::optional<PassPlan> pass;  ///< empty: the render is finished
+    std::uint32_t spp_total = 0;   ///< expected at the end; 0: unknown
+    std::size_t pass_count = 0;    ///< 0: unknown
+    BudgetMemory memory{};         ///< new RenderHistory::budget once the pass is finished
 };
 
-/// Chooses the next pass. Pure. The only place where clock and estimated error have a say.
+/// Chooses the next pass. Pure. Only here do clock and estimated error influence a render.
 using PassChooser = std::function<NextPass(const RenderHistory&)>;
 
-/// The passes of a list, one after the other.
+/// Chooser of the passes of a list, in order.
 PassChooser listed_passes(std::vector<PassPlan> passes);
 
-/// Passes that double until budget.seconds, budget.error or budget.max_spp is near, then one that takes the rest, then
-/// as many smaller ones as make up for what the forecast missed (none where the image is its last pass alone).
+/// Chooser of passes that double until budget.seconds, budget.error or budget.max_spp is near, then one that takes the
+/// rest, then smaller ones to correct the forecast (none if the image is its last pass alone).
 PassChooser open_passes(const Resolved& job);
 
-/// The passes that the job itself asks for; after those that were `begun`, as continued_passes() has it.
+/// Chooser of the passes of a job. After the passes `begun`, those of continued_passes().
 PassChooser passes_of(const Resolved& job, std::span<const PassPlan> begun = {});
 
-/// All passes of a render of budget.spp that has finished those of `begun` so far: plan_passes(), if these begin it;
-/// otherwise passes go on doubling from there by the same two rules (docs/use/resume.md). Pure.
+/// All passes of a render of budget.spp whose passes so far are `begun`: plan_passes() if these are its beginning,
+/// otherwise passes that double from there on by the same two rules (docs/use/resume.md). Pure.
 std::vector<PassPlan> continued_passes(const Resolved& job, std::span<const PassPlan> begun);
 
-/// Lets a pass's light paths start by what those of the passes before brought, where the job has it so. Whoever renders
-/// a pass sets it once, as its kernel.
+/// Sets the emitter probabilities of a pass's light paths from the contributions of earlier passes, if the job asks for
+/// it. To be called once per pass, like the choice of its kernel.
 void set_emission(PassPlan& pass, const Resolved& job, const RenderHistory& state);
 
-/// A finished pass; `before`: the one before it, or nullptr.
+/// A finished pass; `before`: the previous one, or nullptr.
 PassResult finished_pass(const PassPlan& plan, const PassPlan* before, std::vector<PixelEstimate> pixels);
 
-/// Adds a finished pass to those that make the image. Passes that it replaces leave.
+/// Adds a finished pass to the passes that make the image, and removes those that it replaces.
 void show(PassResult pass, const Resolved& job, std::vector<PassResult>& shown);
 
-/// Whether the job asked for an error that the image has not come down to.
+/// Whether the image misses the error that the job asked for.
 bool misses_target(const Job& job, const ErrorEstimate& error);
 
 }  // namespace treefarm

@@ -11,20 +11,20 @@ namespace treefarm {
 
 namespace {
 
-/// Relative spread of a second render of the same kind, and of a machine's speed besides; more for each doubling of the
-/// samples that a forecast looks ahead.
+/// Relative spread of error and speed of a second, equal render; more for each doubling of samples that a forecast
+/// looks ahead.
 constexpr double kSpread = 0.12;
 constexpr double kSpreadPerDoubling = 0.03;
 constexpr double kSpeedSpread = 0.15;
 constexpr double kSpeedSpreadPerDoubling = 0.02;
-/// Factor either way of an error that has no interval of its own.
+/// Factor, up and down, for an error without interval.
 constexpr double kUnknownSpread = 2.0;
-/// An error whose interval ends so far above it, relative, has rare samples.
+/// Relative width of an upper interval above which an error is attributed to rare samples.
 constexpr double kWide = 0.1;
-/// Trees to come after which all is learned that there is to learn.
+/// Number of further trees after which nothing more is learned.
 constexpr int kManyTrees = 10;
 
-/// Factors below and above 1 by which a mean squared error, and so the samples for a given one, may be off.
+/// Factors below and above 1 by which a mean squared error, and so the samples for a given error, may be wrong.
 struct Doubt {
     double low = 1, high = 1, speed = 1;
 };
@@ -38,14 +38,14 @@ Doubt doubt_of(const RenderHistory& state, double spp) {
     const double doublings = std::max(0.0, std::log2(spp / std::max(1u, state.spp())));
     const double spread = (1 + kSpread) * (1 + kSpreadPerDoubling * doublings);
     Doubt doubt;
-    // The error's interval is of this very image; the variance of a sample, which decides, is known better. But where
-    // it is wide, rare samples are, which a probe has hardly seen: they only make a render longer.
+    // The error's interval is of this image; the variance of a sample, which decides, is known better. But a wide
+    // interval means rare samples, which a probe has hardly seen and which only make a render longer.
     const double low = error.has_interval ? error.low / error.rmse : 1 / kUnknownSpread;
     const double high = error.has_interval ? error.high / error.rmse : kUnknownSpread;
     doubt.low = low / spread;
     doubt.high = (high > 1 + kWide ? high * high : high) * spread;
     doubt.speed = (1 + kSpeedSpread) * (1 + kSpeedSpreadPerDoubling * doublings);
-    // What the trees to come will bring is a guess: it may be nothing, or what the last ones brought, all over again.
+    // The gain of further trees is a guess between none and the gain of the last ones.
     const Outlook outlook(state);
     if (outlook.learning() && outlook.variance() > 0) {
         const double hope = outlook.variance_after(kManyTrees) / outlook.variance();
@@ -55,14 +55,14 @@ Doubt doubt_of(const RenderHistory& state, double spp) {
     return doubt;
 }
 
-/// Why nothing can be said; "" if something can.
+/// Reason why there is no expectation; "" if there is one.
 std::string why_unknown(const RenderHistory& state) {
     if (!state.error.known) return "the probe has too few samples to tell its error";
     if (!(state.error.mean > 0)) return "no light was found in the probe: check the scene's emitters and camera";
     return "";
 }
 
-/// A render without noise, or one whose end the probe reached.
+/// Expectation of a render without noise, or of one whose end the probe reached.
 Expectation measured(const RenderHistory& state) {
     Expectation all;
     all.known = all.reached = true;
@@ -77,7 +77,7 @@ ErrorForecast ahead(const RenderHistory& state, const Resolved& job, double erro
     return forecast_error(state, job, error);
 }
 
-/// The error at which `figure` of the forecast comes to `wanted`: it grows as the error falls.
+/// Error at which `figure` of the forecast reaches `wanted`; it grows as the error falls.
 double error_where(const RenderHistory& state, const Resolved& job, double wanted,
                    const std::function<double(const ErrorForecast&)>& figure) {
     constexpr double kLeast = 1e-4;

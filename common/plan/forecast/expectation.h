@@ -8,27 +8,27 @@
 
 namespace treefarm {
 
-/// A figure that is expected, and where it is most likely to be found.
+/// An expected figure with its likely range.
 struct Expected {
     double value = 0, low = 0, high = 0;
 };
 
-/// Cost and error of a render in the end, as expected by the passes that are done.
+/// Expected cost and error of a render, from its finished passes.
 struct Expectation {
     bool known = false;
-    bool reached = false;   ///< by those passes: nothing more is needed
-    std::string unknown;    ///< why it is not known
-    Expected spp, seconds;  ///< in all
+    bool reached = false;   ///< the finished passes suffice
+    std::string unknown;    ///< reason why it is unknown
+    Expected spp, seconds;  ///< totals of the render
     Expected error;         ///< rmse / mean luminance
 };
 
-/// Expectation of a render that goes on until the error is `relative_error`.
+/// Expectation for a render that stops at `relative_error`.
 Expectation expect_error(const RenderHistory& state, const Resolved& job, double relative_error);
 
-/// Expectation of a render after so many seconds.
+/// Expectation for a render of so many seconds.
 Expectation expect_after_seconds(const RenderHistory& state, const Resolved& job, double seconds);
 
-/// Expectation of a render after so many samples per pixel.
+/// Expectation for a render of so many samples per pixel.
 Expectation expect_after_spp(const RenderHistory& state, const Resolved& job, double spp);
 
 }  // namespace treefarm

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
-/// A forecast is no further ahead than so many doublings.
+/// Limit of a forecast, in doublings of samples.
 constexpr int kMostTrees = 40;
 
 bool is_guided(const Resolved& job) {
@@ -25,7 +25,7 @@ bool weighs_by_variance(const Resolved& job) {
     return is_guided(job) && job.guiding.combination == Combination::inverse_variance && !job.budget.strict;
 }
 
-/// Samples that a pass of the last tree adds to.
+/// Samples that the image has if a pass with the last tree is added.
 double spp_shown(const RenderHistory& state, const Resolved& job) {
     return job.budget.strict || state.passes.back().record ? 0.0 : state.spp_of_last_tree();
 }
@@ -37,8 +37,8 @@ double sum_of_fixed_weights(const RenderHistory& state, bool guided) {
     return sum;
 }
 
-/// Positive n of ((sum of weights)^2 mse + weight^2 n variance) / (sum of weights + weight n)^2 = wanted: how `fixed`
-/// weights take in a pass of n samples, each of this weight.
+/// Positive n with ((sum of weights)^2 mse + weight^2 n variance) / (sum of weights + weight n)^2 = wanted: samples of
+/// a pass, each of this weight, under `fixed` weights.
 double solve_fixed(double sum, double mse, double weight, double variance, double wanted) {
     const double a = wanted * weight * weight;
     const double half_b = wanted * sum * weight - 0.5 * weight * weight * variance;
@@ -46,7 +46,7 @@ double solve_fixed(double sum, double mse, double weight, double variance, doubl
     return (std::sqrt(half_b * half_b - a * c) - half_b) / a;
 }
 
-/// The mean squared error after one more pass of so many samples: what spp_to_reach() inverts.
+/// Mean squared error after one more pass of so many samples; inverse of spp_to_reach().
 double mse_after(const RenderHistory& state, const Resolved& job, double spp, double variance) {
     const double now = state.error.mse();
     if (shows_last_tree_only(job)) return variance / (spp_shown(state, job) + spp);
@@ -57,7 +57,7 @@ double mse_after(const RenderHistory& state, const Resolved& job, double spp, do
     return (sum * sum * now + weight * weight * variance / spp) / ((sum + weight) * (sum + weight));
 }
 
-/// The render as it will be after one more pass that teaches.
+/// Appends a teaching pass to the history, as it is expected to turn out.
 void add_teaching_pass(RenderHistory& state, const Resolved& job, std::uint32_t spp, double variance) {
     const double mse = mse_after(state, job, spp, variance);
     PassFacts pass;
@@ -111,7 +111,7 @@ ErrorForecast forecast_error(const RenderHistory& state, const Resolved& job, do
     if (!job.budget.strict && state.error.mse() <= mse) return {relative_error, 0, 0, Trust::firm};
     const Outlook outlook(state);
     const auto next = static_cast<std::uint32_t>(state.passes.size());
-    // Sampling emitters begins or ends with the next pass: nothing tells how noisy that will be.
+    // If sampling of emitters starts or stops with the next pass, its noise is unknown.
     const bool like_the_last = make_pass(job, next, state.spp(), 1, true).next_event == state.passes.back().next_event;
     if (!outlook.knows_variance() || !like_the_last) return forecast;
     forecast.trust = trust_in(state, outlook);

@@ -20,19 +20,19 @@
 namespace treefarm {
 namespace {
 
-/// Vertices per path in closed rooms; fewer where light leaves the scene or the job ends paths before.
+/// Vertices per path in closed rooms; fewer where light leaves the scene or the job ends paths early.
 constexpr double kVerticesPerPath = 8.0;
-/// Part of its threshold that a region holds after the last split: measured in the scenes of configs/.
+/// Mean records of a region after the last split, as a part of its threshold: measured in the scenes of configs/.
 constexpr double kRegionFilling = 0.65;
-/// Cells per region times the directional threshold, measured as well; fewer where cells follow use.
+/// Cells per region times the directional threshold, also measured; fewer where cells follow use.
 constexpr double kCellsPerRegion = 2.4;
 constexpr double kCellsPerRegionByUse = 2.0;
 
-/// Views for each region of a scene that learns views.
+/// Views per region in a scene that learns views.
 constexpr double kViewsPerRegion = 0.5;
-/// A cell's two sums (docs/design/guiding.md).
+/// Bytes of a cell's sum (docs/design/guiding.md).
 constexpr std::uint64_t kSumBytes = 8;
-/// Both halves of a pixel's splats.
+/// Bytes of both halves of a pixel's splats.
 constexpr std::uint64_t kSplatBytes = 2 * sizeof(SplatMoments);
 constexpr std::uint64_t kPlainTreeBytesPerCell = 5;
 constexpr std::uint64_t kPlainTreeBytesPerRegion = 2 * 8 + 6;
@@ -69,7 +69,7 @@ std::uint64_t emitters_bytes(const Scene& scene) {
     return bytes;
 }
 
-/// Numbers of what next event chooses among by place: emitters, patches of meshes, parts of images.
+/// Numbers of the entries that next event chooses among by position: emitters, patches of meshes, parts of images.
 struct LightParts {
     std::uint64_t count = 0;
     std::uint64_t cut_triangles = 0;  ///< of meshes in patches
@@ -92,7 +92,7 @@ LightParts light_parts(const Scene& scene) {
     return parts;
 }
 
-/// What next event chooses emitters by, besides their tables.
+/// Memory of the tables by which next event chooses emitters, their own tables apart.
 MemoryItem emitter_item(const Scene& scene, const Resolved& job) {
     const std::uint64_t count = scene.emitters.size();
     MemoryItem item{"emitters", emitters_bytes(scene), count_text(count, "emitters")};
@@ -112,7 +112,7 @@ MemoryItem emitter_item(const Scene& scene, const Resolved& job) {
     return item;
 }
 
-/// Images of finished passes that the coordinator keeps.
+/// Number of images of finished passes that the coordinator keeps.
 std::uint64_t kept_passes(const Resolved& job) {
     if (job.budget.strict) return 1;  // each replaces the one before
     if (has_open_budget(job)) return kMostPassImages;
@@ -127,7 +127,7 @@ std::string passes_text(const Resolved& job) {
     return passes > kMostPassImages ? count_text(passes, "passes merged into ") + kept : kept;
 }
 
-/// Seconds between two checkpoints, which are written for at most a tenth of the time.
+/// Text about the loss by a kill: seconds between checkpoints, which take at most a tenth of the time.
 std::string lost_by_kill(const Resolved& job, std::uint64_t pixels) {
     constexpr double kBytesPerSecond = 1e8;
     const auto bytes = static_cast<double>(kEstimateBytes * pixels * (kept_passes(job) + 1));
@@ -246,7 +246,7 @@ MemoryPlan expected_memory(const Scene& scene, const Resolved& job) {
     if (splats.bytes > 0) plan.worker.push_back(splats);
     const std::uint64_t scene_bytes = geometry_bytes(scene) + texture_bytes(scene);
     plan.coordinator.push_back({"scene", 2 * scene_bytes, "as values and packed for workers"});
-    // Passes, the one in hand, the image; that of the pass before while it is written, its 12 channels and their file.
+    // Passes, the current one, the image; the previous image while it is written, its 12 channels and their file.
     plan.coordinator.push_back(
         {"film",
          pixels * ((kept_passes(job) + 1) * sizeof(PixelEstimate) + 2 * 4 * sizeof(Rgb64) + 2 * 12 * sizeof(float)),
@@ -263,8 +263,8 @@ MemoryPlan expected_memory(const Scene& scene, const Resolved& job) {
         std::size_t channels = 0;
         for (const AovRequest& request : aov_requests(job))
             channels += request.channels().size();
-        // Of the pass in hand and of all; direct light's film and sums; channels of the image, of the one before while
-        // it is written, and its file.
+        // AOVs of the current pass and of all; film and sums of direct light; channels of the image, of the previous
+        // one while it is written, and its file.
         const std::uint64_t bytes = 2 * sizeof(double) * aovs.size() +
                                     (aovs.direct() ? sizeof(PixelEstimate) + sizeof(Rgb64) : 0) +
                                     4 * sizeof(float) * channels;

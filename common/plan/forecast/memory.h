@@ -11,16 +11,17 @@
 
 namespace treefarm {
 
-/// Bytes that one kind of data is expected to take.
+/// Expected bytes of one kind of data.
 struct MemoryItem {
     std::string name;
     std::uint64_t bytes = 0;
-    std::string formula;  ///< one line: how the figure comes about
+    std::string formula;  ///< one line: how the figure is computed
 };
 
 struct MemoryPlan {
-    std::vector<MemoryItem> worker;       ///< of one worker process, whatever its threads
-    std::vector<MemoryItem> coordinator;  ///< beside its packed copy of the scene, none of it grows with workers
+    std::vector<MemoryItem> worker;  ///< of one worker process, for any number of threads
+    std::vector<MemoryItem>
+        coordinator;  ///< beside its packed copy of the scene; none of it grows with the number of workers
 
     std::uint64_t worker_bytes() const;
     std::uint64_t coordinator_bytes() const;
@@ -31,41 +32,41 @@ struct TreeSize {
     std::uint64_t regions = 0, cells = 0;
     bool with_mixture = false;     ///< histograms from which the fractions of BSDF and tree are learned
     std::uint64_t views = 0;       ///< of T2; their cells are among `cells`
-    bool with_lights = false;      ///< next event learns how to choose emitters
+    bool with_lights = false;      ///< next event learns to choose emitters
     SamplerCost cost = {};         ///< of the form that workers sample from
-    bool with_next_event = false;  ///< regions decide how often next event samples an emitter
+    bool with_next_event = false;  ///< regions decide the number of light samples
 
-    std::uint64_t guide_bytes() const;  ///< the form that workers sample from
-    std::uint64_t sum_bytes() const;    ///< the plain form and the sums of what is recorded
+    std::uint64_t guide_bytes() const;  ///< bytes of the form that workers sample from
+    std::uint64_t sum_bytes() const;    ///< bytes of the plain form and of the sums of records
 };
 
-/// Bytes that an emitter takes beside its table.
+/// Bytes of an emitter, its table apart.
 inline constexpr std::uint64_t kEmitterBytes = 128;
-/// Bytes and microseconds that the hierarchy takes for each of many emitters, about
-/// (bench/log/next-event.md, "emitters by what they bring to the point").
+/// Approximate bytes and microseconds of the hierarchy per emitter (bench/log/next-event.md, "emitters by what they
+/// bring to the point").
 inline constexpr std::uint64_t kLightTreeBytes = 180, kLightTreeMicroseconds = 10, kPatchTriangleBytes = 18;
-/// Embree's hierarchy over triangles, and over other shapes with their geometry objects, measured
+/// Bytes of Embree's hierarchy per triangle, and per other shape with its geometry object, measured
 /// (docs/generated/effects.md).
 inline constexpr std::uint64_t kHierarchyBytesPerTriangle = 67;
 inline constexpr std::uint64_t kHierarchyBytesPerObject = 400;
 
-/// Bytes of the arrays of a mesh.
+/// Bytes of a mesh's arrays.
 std::uint64_t mesh_bytes(const Mesh& mesh);
 
-/// Bytes of the table by which an emitter is sampled: per triangle a bound and a density, per texel of an environment
-/// map a bound.
+/// Bytes of the table by which an emitter is sampled: bound and density per triangle, bound per texel of an environment
+/// map.
 std::uint64_t emitter_table_bytes(const Scene& scene, const Emitter& emitter);
 
-/// Bytes of the sums of splats in a worker, and of their message; 0 where a job's paths splat nothing.
+/// Bytes of the splat sums in a worker, and of their message; 0 for jobs without splats.
 std::uint64_t splat_bytes(const Scene& scene, const Resolved& job);
 
-/// Expected size of the tree: a region holds about as many vertices as its splitting threshold asks for. A path is
-/// counted as eight vertices, a region's quadtree as 2.4 / directional_threshold cells, views as what they are bounded
-/// by (one for two regions). Of a guide that does not grow it is known. 0 without guiding.
+/// Expected size of the tree: a region has about as many vertices as its splitting threshold. A path counts as eight
+/// vertices, a region's quadtree as 2.4 / directional_threshold cells, views as their upper bound (one per two
+/// regions). Exact for guides that do not grow. 0 without guiding.
 TreeSize expected_tree(const Scene& scene, const Resolved& job);
 
-/// Memory of the data of a render as formulas of scene and job. Program, libraries, MPI's buffers and the peak while
-/// Embree builds come on top.
+/// Expected memory of a render's data, as formulas of scene and job. Program, libraries, MPI's buffers and the peak
+/// while Embree builds come on top.
 MemoryPlan expected_memory(const Scene& scene, const Resolved& job);
 
 }  // namespace treefarm

@@ -9,9 +9,9 @@
 namespace treefarm {
 namespace {
 
-/// Seconds of a sample by a clock that did not move.
+/// Seconds of a sample if the clock did not advance.
 constexpr double kShortestSample = 1e-9;
-/// A farm whose threads differ by less is as fast as it was.
+/// Relative difference in threads up to which a farm counts as equally fast.
 constexpr double kOtherThreads = 0.1;
 
 /// Passes that had one tree.
@@ -19,7 +19,7 @@ struct TreeFacts {
     double spp = 0;
     double samples_times_variance = 0, samples_times_trimmed = 0, known_spp = 0;
     double trace_core_seconds = 0;  ///< without the log of records
-    bool first = false;             ///< before anything was learned
+    bool first = false;             ///< the tree before anything was learned
     bool next_event = false;
 
     double variance() const { return samples_times_variance / known_spp; }
@@ -54,9 +54,9 @@ double core_seconds(const PassFacts& pass) {
     return pass.trace_core_seconds + pass.record_core_seconds;
 }
 
-/// What a core-second of the next pass takes of the clock: a matter of the machine and its neighbours. The mean over
-/// all passes that had about as many threads, of which the last ones are the longest; where none had, as after a resume
-/// on another farm, that of all passes by their threads.
+/// Wall-clock seconds per core-second of the next pass, which depends on the machine and other load. Mean over the
+/// passes with about as many threads, dominated by the last and longest; if there are none, as after a resume on
+/// another farm, mean over all passes, scaled by threads.
 double clock_per_core(const RenderHistory& state) {
     const double threads = state.threads;
     const bool known =
@@ -105,8 +105,8 @@ void Outlook::look_at_variance(const RenderHistory& state) {
         levels.push_back({tree.known_spp, trimmed ? tree.trimmed() : tree.variance(), 1});
         whole += tree.known_spp * tree.variance();
         looked_at += tree.known_spp * levels.back().variance;
-        // More noise than with the tree before: both are as good, and the noise is in the measurement (isotonic
-        // regression by pooling adjacent violators).
+        // More noise than with the previous tree: both count as equally good, and the difference as error of
+        // measurement (isotonic regression by pooling adjacent violators).
         while (levels.size() > 1 && levels.back().variance >= levels[levels.size() - 2].variance) {
             const Level last = levels.back();
             levels.pop_back();
@@ -117,7 +117,7 @@ void Outlook::look_at_variance(const RenderHistory& state) {
             before.trees += last.trees;
         }
     }
-    // What the worst pixels add is the same for all trees, for want of better.
+    // The worst pixels are assumed to add the same for all trees.
     for (Level& level : levels)
         if (looked_at > 0) level.variance *= whole / looked_at;
     if (levels.empty()) return;
@@ -145,7 +145,7 @@ void Outlook::look_at_cost(const RenderHistory& state) {
     overhead_ = last.overhead_seconds;
     const std::vector<TreeFacts> trees = trees_of(state);
     const double traced = trees.back().core_per_spp();
-    if (!(core > 0 && traced > 0)) {  // a farm that does not tell what its threads did
+    if (!(core > 0 && traced > 0)) {  // a farm that does not report its threads' work
         core_per_spp_ = clock / spp;
         return;
     }
@@ -161,7 +161,7 @@ void Outlook::look_at_cost(const RenderHistory& state) {
 
 namespace {
 
-/// Product of `trees` steps, each the one before to the power `fading`, that follow a step of this size.
+/// Product of `trees` steps after a step of this size, each the previous one to the power `fading`.
 double fading_steps(double step, double fading, int trees) {
     const double power = fading * (1 - std::pow(fading, trees)) / (1 - fading);
     return std::pow(step, power);

@@ -9,22 +9,22 @@
 
 namespace treefarm {
 
-/// Facts about a finished pass that tell of those to come. Seconds of the clock are the coordinator's.
+/// Facts about a finished pass for forecasts. Times are the coordinator's wall-clock seconds unless noted.
 struct PassFacts {
     std::uint32_t spp = 0;
     std::uint32_t spp_before = 0;
     double mse_of_sample = 0;        ///< PassVariance::mse_of_sample
-    double stuv_trimmed = 0;         ///< PassVariance::stuv_trimmed; 0: not known
-    double collect_seconds = 0;      ///< of the clock: what grows with spp
-    double overhead_seconds = 0;     ///< of the clock: what does not (broadcast, refinement, combination)
-    double trace_core_seconds = 0;   ///< of the workers' threads, tracing
-    double record_core_seconds = 0;  ///< of the workers' threads, adding records to the sums
-    std::uint32_t threads = 0;       ///< of the workers that were there at its end; 0: not known
+    double stuv_trimmed = 0;         ///< PassVariance::stuv_trimmed; 0: unknown
+    double collect_seconds = 0;      ///< part that grows with spp
+    double overhead_seconds = 0;     ///< part that does not (broadcast, refinement, combination)
+    double trace_core_seconds = 0;   ///< core-seconds of tracing on the workers
+    double record_core_seconds = 0;  ///< core-seconds of adding records to the sums on the workers
+    std::uint32_t threads = 0;       ///< of the workers present at its end; 0: unknown
     bool record = false;             ///< taught the tree of the next pass; if not, the next has the same tree
     bool next_event = false;
 };
 
-/// What the choice of passes for an open budget remembers (budget.h).
+/// Memory of the pass chooser for open budgets (budget.h).
 struct BudgetMemory {
     bool probed = false;  ///< a short pass has tried the last tree
     bool ending = false;  ///< a pass was meant to be the last
@@ -32,46 +32,46 @@ struct BudgetMemory {
     bool operator==(const BudgetMemory&) const = default;
 };
 
-/// A render between two passes: all that decides which comes next.
+/// State of a render between two passes: all inputs of the choice of the next pass.
 struct RenderHistory {
-    std::vector<PassFacts> passes;  ///< the finished ones
-    double seconds = 0;             ///< of the clock, rendering, in all lives of the render
-    std::uint32_t threads = 0;      ///< of the workers that the next pass has; 0: not known
+    std::vector<PassFacts> passes;  ///< finished passes
+    double seconds = 0;             ///< wall-clock seconds of rendering, in all lives of the render
+    std::uint32_t threads = 0;      ///< of the workers for the next pass; 0: unknown
     ErrorEstimate error;            ///< of the image so far
     Guiding guiding = Guiding::open;
     bool splitting = true;       ///< may pay
     bool light_subpaths = true;  ///< may pay
     EmissionSums emission;       ///< of all passes
-    BudgetMemory budget;         ///< with the last finished pass: NextPass::memory of it
+    BudgetMemory budget;         ///< memory as of the last finished pass: its NextPass::memory
 
     std::uint32_t spp() const { return passes.empty() ? 0 : passes.back().spp_before + passes.back().spp; }
-    /// Samples per pixel of the passes that had the last one's tree.
+    /// Samples per pixel of the passes that had the last pass's tree.
     std::uint32_t spp_of_last_tree() const;
 };
 
-/// Forecast of coming passes, by those that are done (docs/design/error.md, "error"). A tree that learns more makes
-/// samples less noisy and changes what they cost, each time by less than the time before: its progress to the power
+/// Forecast of further passes from the finished ones (docs/design/error.md, "error"). A tree that learns more makes
+/// samples less noisy and changes their cost, each time by less: the progress is that of the step before to the power
 /// 3/4, the change of cost to the power 0.35. Needs a finished pass.
 class Outlook {
   public:
     explicit Outlook(const RenderHistory& state);
 
-    /// Whether any pass tells the variance of its samples.
+    /// Whether a pass has told the variance of its samples.
     bool knows_variance() const { return variance_ > 0 || quiet_; }
-    /// Variance of one sample, as samples are now: what the last trees measured together, as far as they show no
-    /// progress. Progress is seen without the worst pixels, in which a rare sample tells nothing of the tree.
+    /// Variance of one sample at present, measured by the last trees together, as far as they show no progress.
+    /// Progress is measured without the worst pixels, in which a rare sample says nothing about the tree.
     double variance() const { return variance_; }
-    /// Variance of one sample once `trees` more trees were learned; variance() where nothing is learned any more.
+    /// Variance of one sample after `trees` further trees; equals variance() if nothing more is learned.
     double variance_after(int trees) const;
-    /// Progress by the last tree that brought any: variance over that before it, at most 1. 1 as well where none of the
-    /// last three did. 0: not known yet.
+    /// Progress by the last tree that improved: its variance over that of the tree before, at most 1. Also 1 if none of
+    /// the last three improved. 0: unknown.
     double progress() const { return progress_; }
-    /// Progress by the last two trees together. 0: fewer than three were seen.
+    /// Progress by the last two trees together. 0: fewer than three trees so far.
     double recent_progress() const { return recent_progress_; }
     /// Whether the next pass has another tree than the last.
     bool learning() const { return learning_; }
 
-    /// Seconds of the clock for a sample per pixel, once `trees` more trees were learned.
+    /// Wall-clock seconds per sample per pixel, after `trees` further trees.
     double seconds_per_spp(int trees, bool record) const;
     double overhead_seconds() const { return overhead_; }
 
@@ -82,9 +82,9 @@ class Outlook {
     bool learning_ = false;
     bool quiet_ = false;  ///< passes with a variance of zero
     double variance_ = 0, progress_ = 0, recent_progress_ = 0;
-    int trees_since_ = 0;                       ///< without progress
+    int trees_since_ = 0;                       ///< number of trees without progress
     double core_per_spp_ = 0, cost_ratio_ = 1;  ///< without recording; of the last tree over that before it
-    double recording_ = 1;                      ///< core-seconds with it over those without
+    double recording_ = 1;                      ///< core-seconds with recording over those without
     double clock_per_core_ = 1;
     double overhead_ = 0;
 };

@@ -16,15 +16,15 @@ std::string write_policy();
 /// What its constants begin with among settings: "policy.guiding.giving_up".
 inline constexpr std::string_view kPolicyPrefix = "policy.";
 
-/// What to do with a resolved.toml that this build cannot repeat.
+/// Cure for a resolved.toml that this build cannot repeat.
 inline constexpr char kResolvedCure[] =
     "render job.toml instead, which leaves it to the program, or use the build that wrote it";
 
-/// Throws InputError where the settings of a resolved.toml lack a constant, have one that this build has not, or give
-/// one another value. `file`: for what is missing.
+/// Throws InputError if the settings of a resolved.toml lack a constant, have an unknown one, or give one another
+/// value. `file`: location for missing constants.
 void check_policy(std::span<const Setting> settings, const Location& file);
 
-/// A Markdown table of all constants, for docs/.
+/// Markdown table of all constants, for docs/.
 std::string policy_documentation();
 
 }  // namespace treefarm

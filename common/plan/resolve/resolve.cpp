@@ -21,8 +21,8 @@ bool chooses_lights(const Scene& scene) {
     return with_image || scene.emitters.size() > 1;
 }
 
-/// c of the spatial split rule, in proportion to the fourth root of the film's pixels: more of them bring more records,
-/// but what there is to learn grows more slowly.
+/// Factor c of the spatial split rule, proportional to the fourth root of the film's pixels: more pixels bring more
+/// records, but the amount to be learned grows more slowly.
 double usual_spatial_threshold(double film_pixels) {
     return tuned("learning.spatial_threshold") * std::sqrt(std::sqrt(film_pixels / (512.0 * 512.0)));
 }
@@ -35,8 +35,8 @@ void resolve_rules(Job::Guiding& guiding) {
         guiding.splitting_rule = guiding.splitting == 0 ? Rule::while_it_pays : Rule::always;
 }
 
-/// Whether finished passes may decide on next event: publications did not, and what is decided is right for the balance
-/// heuristic of one direction and light samples. Weights that were set beforehand ask for passes that were, too.
+/// Whether finished passes may decide on next event. Published methods had no such decision; it holds for the balance
+/// heuristic with one direction and light samples; and weights fixed in advance require passes fixed in advance.
 bool may_decide_next_event(const Job& job) {
     return estimator_of(job.integrator.type).guides && job.integrator.light_samples == 0 &&
            job.guiding.preset.empty() && !job.budget.strict && job.integrator.mis == MisHeuristic::balance &&
@@ -44,7 +44,8 @@ bool may_decide_next_event(const Job& job) {
            job.guiding.combination == Combination::inverse_variance;
 }
 
-/// Mirrors and smooth glass throw the light of emitters without extent where no path from the camera finds it.
+/// Whether the scene has light that only paths from emitters find: emitters without extent, seen by way of mirrors or
+/// smooth glass.
 bool lights_alone_find(const Scene& scene) {
     const bool has_points = std::any_of(scene.emitters.begin(), scene.emitters.end(), [](const Emitter& emitter) {
         return std::visit([]<class Kind>(const Kind&) { return Kind::kTraits.type == LightType::delta; }, emitter.kind);
@@ -52,7 +53,7 @@ bool lights_alone_find(const Scene& scene) {
     return has_points && scene_traits(scene).lobes.delta_reflection;
 }
 
-/// Light subpaths stay where what they bring is asked for, or cannot be had otherwise.
+/// Keeps light subpaths if their contributions are requested, or cannot be obtained otherwise.
 void resolve_light_subpaths(Job::Bidirectional& bidirectional, const SceneFacts& scene) {
     if (bidirectional.techniques != "all" || !bidirectional.weighted || scene.lights_alone_find)
         bidirectional.light_subpaths = Rule::always;
@@ -60,7 +61,7 @@ void resolve_light_subpaths(Job::Bidirectional& bidirectional, const SceneFacts&
         bidirectional.light_subpaths = Rule::while_it_pays;
 }
 
-/// Takes away what the job's estimator does not use.
+/// Resets the settings that the job's estimator does not use.
 void resolve_estimator(Job& job) {
     const Estimator& estimator = estimator_of(job.integrator.type);
     if (estimator.guides) return;
@@ -119,7 +120,7 @@ Resolved resolve(const Job& job, const SceneFacts& scene) {
     if (guiding.bootstrap == kUsualBootstrap) guiding.bootstrap = table ? 1.0f : 0.0f;
     if (guiding.spatial_threshold == 0)
         guiding.spatial_threshold = usual_spatial_threshold(static_cast<double>(scene.film_pixels));
-    // By what packs best: floats with noise hardly shrink (packed_by in image/exr_write.cpp).
+    // The compression that packs best: noisy floats hardly shrink (packed_by in image/exr_write.cpp).
     if (resolved.output.compression == "auto") resolved.output.compression = resolved.output.half ? "zip" : "rle";
     resolved.guides = guiding.type != GuidingType::none;
     resolved.learns_views = by_view && scene.view_dependent;

@@ -110,7 +110,7 @@ bool may_change_on_resume(const std::string& key) {
 }
 
 std::string first_difference(const Job& before, const Job& now) {
-    // What follows from another key is named only where that one is the same.
+    // A key that follows from another is reported only if the other is equal.
     const auto follows = [](const JobKey& key) { return key.name == "integrator.light_selection"; };
     for (const bool following : {false, true})
         for (const JobKey& key : job_keys())

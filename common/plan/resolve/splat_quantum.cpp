@@ -11,15 +11,15 @@
 namespace treefarm {
 namespace {
 
-/// Bits by which the quantum is finer than a splat as it is expected.
+/// Quantum over the expected size of a splat.
 constexpr double kFiner = 0x1p-20;
-/// splat_exponent() has so many of them.
+/// Quanta in the value that splat_exponent() expects.
 constexpr double kOfExponent = 0x1p10;
 /// A lamp at the lens is seen from this squared distance at least, over that of the scene; and counts only where it is
 /// more than kAlike times as bright as from the scene's distance.
 constexpr double kNearest = 0x1p-16, kAlike = 16.0;
 
-/// Camera importance at the middle of the film, per area that faces the camera at this distance.
+/// Camera importance at the middle of the film, per area facing the camera at this distance.
 double importance(const Camera& camera, double distance2) {
     if (camera.panoramic) return 1 / (2 * M_PI * M_PI * distance2);
     const Imath::V3d middle = Imath::V3d(camera.corner) + (Imath::V3d(camera.across) + Imath::V3d(camera.down)) * 0.5;
@@ -29,8 +29,8 @@ double importance(const Camera& camera, double distance2) {
     return length2 * std::sqrt(length2) / std::abs(middle.dot(n)) / distance2;
 }
 
-/// Light falls near its lamp: squared distance from the lens at which that of an emitter is seen, at most that of the
-/// scene, and at least `nearest` of it.
+/// Squared distance from the lens at which an emitter's light is seen. Light falls near its lamp: the distance is the
+/// lamp's, at most that of the scene, at least `nearest` of it.
 double seen_from(const Scene& scene, const Box3& lamp, double distance2, double nearest) {
     if (lamp.isEmpty()) return distance2;
     const Imath::V3d half = (Imath::V3d(lamp.max) - Imath::V3d(lamp.min)) * 0.5;
@@ -38,8 +38,8 @@ double seen_from(const Scene& scene, const Box3& lamp, double distance2, double 
     return std::clamp(to_lamp.dot(to_lamp) + half.dot(half), nearest * distance2, distance2);
 }
 
-/// Watts that the emitters send into a ball of radius R about the surfaces, mean of the channels, by what each says of
-/// the radiance that it brings there, each times the camera's importance where it is seen.
+/// Power in watts that the emitters send into a ball of radius R around the surfaces, mean of the channels, from each
+/// emitter's radiance there, times the camera's importance where it is seen.
 double power_seen(const Scene& scene, double radius2, double distance2, double nearest) {
     const LitScene lit{static_cast<float>(radius2), scene.images};
     double sum = 0;
@@ -56,7 +56,7 @@ double power_seen(const Scene& scene, double radius2, double distance2, double n
                     lamp = own_box(shape);
                 } else if constexpr (Kind::kTraits.type == LightType::delta) {
                     const auto cone = kind.cone();
-                    power = (cone ? 4 * M_PI : M_PI) * scale * radius2;  // a point's intensity, or parallel light
+                    power = (cone ? 4 * M_PI : M_PI) * scale * radius2;  // intensity of a point, or parallel light
                     if (cone) lamp.extendBy(cone->apex);
                 } else {
                     power = M_PI * M_PI * scale * radius2;

@@ -10,7 +10,7 @@ namespace treefarm {
 
 namespace {
 
-/// The worth below which guiding is given up: lower after short passes, whose trees still get much better.
+/// Efficiency below which guiding is given up: lower after short passes, whose trees still improve much.
 double bar(std::uint32_t spp) {
     const double settled = std::log2(static_cast<double>(spp) / tuned<std::uint32_t>("guiding.least_settled_spp")) /
                            std::log2(static_cast<double>(tuned<std::uint32_t>("guiding.settled_spp")) /

@@ -6,11 +6,11 @@
 
 namespace treefarm {
 
-/// Verdict after a guided pass that taught, by what its samples tell of unguided ones, times the factor `mistrust` by
-/// which unguided passes were noisier than such samples had said. Guided is what stays where nobody knows: it loses at
-/// most its cost, while unguided paths may lose without bound. A tree that is worth more than `before`, what is known
-/// of the tree before it, is judged as the next one, which should be worth as much more again. The trees of short
-/// passes get better in any case, so those have to say more loudly that guiding loses.
+/// Verdict after a guided pass that taught: compares the efficiency of guiding times `mistrust` with a bar. `mistrust`:
+/// factor by which unguided passes were noisier than guided samples had predicted. `before`: efficiency with the
+/// previous tree; if the efficiency has grown, the next tree is expected to gain the same factor again, and that
+/// expectation is judged. In doubt passes stay guided: guiding loses at most its cost, unguided paths may lose without
+/// bound. Trees of short passes improve in any case, so their bar is lower.
 Guiding judge_guiding(const PassPlan& pass, const GuidingEfficiency& efficiency, const GuidingEfficiency& before,
                       double mistrust);
 

@@ -9,10 +9,10 @@
 
 namespace treefarm {
 
-/// Kernels in the program: two that no guide takes part in, and those of guides.
+/// Number of kernels in the program: two without guiding, and those of the guides.
 inline constexpr int kKernelCount = 2 + Guides::kKernels;
 
-/// Facts of the guide's model that a pass begins with.
+/// Facts about the guide's model at the beginning of a pass.
 struct TreeFacts {
     bool trained = false;
     bool has_views = false;
@@ -22,10 +22,10 @@ struct TreeFacts {
 TreeFacts facts_of(const AnyModel& model);
 TreeFacts facts_of(const AnySampler& guide);
 
-/// The kernel of one pass. Pure; whoever renders a pass sets it once, and workers take it as it is.
+/// The kernel of a pass. Pure. Set once per pass by the coordinator; workers use it as it is.
 KernelChoice kernel_of(const Resolved& job, const PassPlan& pass, const TreeFacts& tree);
 
-/// Whether a pass's kernel can trace this scene by this tree: a message may say anything.
+/// Whether a pass's kernel can trace this scene with this tree; the claim of a message may be wrong.
 bool fits(const PassPlan& pass, bool plainly_diffuse, const TreeFacts& tree);
 
 /// A kernel with the passes that it traces.
@@ -34,7 +34,7 @@ struct KernelUse {
     std::vector<std::uint32_t> passes;
 };
 
-/// The kernels of a render, in the order in which they come; none for an estimator that has no kernels.
+/// The kernels of a render, in the order of use; none for estimators without kernels.
 std::vector<KernelUse> kernels_of(const Resolved& job);
 
 }  // namespace treefarm

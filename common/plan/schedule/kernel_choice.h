@@ -5,16 +5,16 @@
 
 namespace treefarm {
 
-/// Which instance of the path kernel traces a pass. What is not named here (next event, lens, masks, environment,
-/// emitter kinds) is decided by the job's and the scene's data.
+/// Instance of the path kernel for a pass. Properties not listed here (next event, lens, masks, environment, emitter
+/// kinds) depend on data of job and scene.
 struct KernelChoice {
-    bool plain_diffuse = false;  ///< surfaces without textures, lobes or tilted normals; otherwise all of them
+    bool plain_diffuse = false;  ///< surfaces without textures, lobes or tilted normals; otherwise all surfaces
     bool guided = false;
     bool record = false;
-    bool views = false;  ///< with the tree's view-dependent part
+    bool views = false;  ///< uses the tree's view-dependent part
 
     bool operator==(const KernelChoice&) const = default;
-    /// "diffuse, guided, recording".
+    /// Name for people: "diffuse, guided, recording".
     std::string name() const;
 };
 

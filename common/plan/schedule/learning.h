@@ -7,17 +7,17 @@
 
 namespace treefarm {
 
-/// The guide of a job; of one that nothing guides, that whose model stands idle.
+/// The guide of a job. A job without guiding has one, too, whose model stays unused.
 GuideKind guide_kind(const Job& job);
-/// Whether a guide has kernels of its own for plainly diffuse scenes; otherwise these are traced as any scene is.
+/// Whether a guide has kernels of its own for plainly diffuse scenes; otherwise the general ones trace these.
 bool has_plain_kernels(GuideKind guide);
 
-/// The guide's model before the first pass over `bounds`; a record of average value is about `radiance_scale`.
+/// The guide's model before the first pass, over `bounds`; a mean record is about `radiance_scale`.
 AnyModel first_model(const Resolved& job, const Box3& bounds, float radiance_scale);
-/// The first model, over all that the scene's camera can see.
+/// The model before the first pass, over everything that the scene's camera can see.
 AnyModel first_model(const Resolved& job, const Scene& scene);
 
-/// How the job refines the tree after `pass` for the `coming` one.
+/// Settings of the job for refining the tree after `pass` for `coming`.
 RefineSettings refine_settings(const Resolved& job, const PassPlan& pass, const PassPlan& coming);
 
 /// Shape of the sums of a pass over `model`.

@@ -15,7 +15,7 @@ namespace {
 constexpr std::int64_t kMostSpp = std::int64_t{1} << 30;
 constexpr std::size_t kMostPasses = 10000;
 
-/// Keys that one [[pass]] may hold.
+/// Keys of a [[pass]].
 constexpr std::string_view kKeys[] = {"spp", "next_event", "record", "guided", "split", "light_subpaths", "last_tree"};
 constexpr const char* kKeyAdvice =
     "a pass has spp, next_event and record, and may have guided, split, light_subpaths and last_tree";

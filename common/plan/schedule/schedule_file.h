@@ -9,8 +9,8 @@
 
 namespace treefarm {
 
-/// schedule.toml: one [[pass]] table per pass with what was decided (spp, next_event, record). All else follows from
-/// the job, so that job and schedule together repeat a render's bits.
+/// Text of schedule.toml: one [[pass]] table per pass with the decisions (spp, next_event, record). All else follows
+/// from the job, so job and schedule together repeat a render's bits.
 std::string write_schedule(std::span<const PassPlan> passes);
 
 /// The passes of such a text; `name` stands for the file in messages. Throws InputError with file:line:column.

@@ -16,12 +16,12 @@
 
 namespace treefarm {
 
-/// Every kind of emitter. Its place here is its number in packed form: new ones come last.
+/// All kinds of emitters. The index of a kind is its number in packed form: new kinds come last.
 using EmitterKind = std::variant<AreaEmitter, PointEmitter, SpotEmitter, DirectionalEmitter, ConstantEmitter,
                                  EnvironmentEmitter, ProjectorEmitter>;
 
-/// What a kind of emitter must say of itself: its values, what it is, about how bright the scene is in its light, and a
-/// delta light where it shines.
+/// Requirements of a kind of emitter: fields, traits, estimated brightness of the scene in its light, and for a delta
+/// light the cone of its light.
 template <class Kind>
 concept SaysWhatItIs = requires(Kind& kind, const Kind& constant, IgnoreFields& visitor, const LitScene& scene) {
     Kind::fields(kind, visitor);

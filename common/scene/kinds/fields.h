@@ -6,10 +6,10 @@
 
 namespace treefarm {
 
-/// Kinds of shapes, materials, emitters and textures name each of their values once, in fields(self, visitor), in the
-/// order in which they are packed. Packing, range checks, `treefarm check`, use of textures and images, removal of what
-/// is unused, docs/generated/scene.md and seeds for the fuzzer follow from that. A visitor has, for what a value is, of
-/// any kind:
+/// Kinds of shapes, materials, emitters and textures list each of their values once, in fields(self, visitor), in
+/// packed order. Packing, range checks, `treefarm check`, use of textures and images, removal of unused parts,
+/// docs/generated/scene.md and seeds for the fuzzer are derived from that list. A visitor has these members, by type of
+/// value, for any kind:
 ///
 ///     flag(name, bool&)
 ///
@@ -27,40 +27,40 @@ namespace treefarm {
 ///
 /// of an emitter:
 ///
-///     light(name, Rgb&, ColorInput& or float&)    how strongly it shines, or a factor on that: at least 0
+///     light(name, Rgb&, ColorInput& or float&)    emission, or a factor on it, at least 0
 ///     position(Vec3&)                             in the scene
 ///     direction(Vec3&)                            of unit length
-///     value(float&)                               any other number, which a rule speaks of
+///     value(float&)                               any other number, checked by a rule
 ///     texture(std::int32_t&)                      index of a texture that light is multiplied by, or kNone
 ///     image(std::int32_t&)                        index of an image of three channels
-///     shape(std::int32_t&)                        index of the shape that shines
-///     rule(bool holds, what, cure)                a condition on values named before, and the words where it does not
+///     shape(std::int32_t&)                        index of the emitting shape
+///     rule(bool holds, what, cure)                a condition on values named before; fault and cure
 ///
 /// of a shape:
 ///
-///     point(name, Vec3&)                          a place
-///     offset(name, Vec3&)                         from one place to another
+///     point(name, Vec3&)                          a point
+///     offset(name, Vec3&)                         a vector between points
 ///     axis(name, Vec3&)                           of unit length
 ///     radius(float&)                              above 0
-///     rule(bool holds, what, cure)                as of an emitter; the words go on from "the shape"
-///     group(std::int32_t&)                        index of a group of shapes, which this one places
+///     rule(bool holds, what, cure)                as of an emitter; `what` continues "the shape"
+///     group(std::int32_t&)                        index of the group of shapes that this one instances
 ///     transform(Imath::M44f&)                     affine, and can be inverted
-///     vertices(std::vector<Vec3>&)                places
+///     vertices(std::vector<Vec3>&)                points
 ///     per_vertex(name, std::vector<Vec2 or Vec3>&)  one for each of the vertices, or none at all
 ///     triangles(std::vector<std::uint32_t>&)      three indices of vertices for each
-///     attributes(std::vector<MeshAttribute>&)     what textures take from vertices and triangles
+///     attributes(std::vector<MeshAttribute>&)     values for textures at vertices or triangles
 ///
 /// of a texture:
 ///
 ///     image(std::int32_t&)                        index of an image
 ///     choice(name, Enum&, last)                   as of a material
 ///     color(name, Rgb&)                           a finite colour
-///     coordinates(UvTransform&)                   what texture coordinates go through
-///     mesh_attribute(std::string&)                name of what it takes from the mesh that it is looked up on
+///     coordinates(UvTransform&)                   transform of texture coordinates
+///     mesh_attribute(std::string&)                name of the attribute of the mesh that it shows
 ///
 /// Names are words for messages: "specular reflectance".
 
-/// A visitor that looks at nothing: others derive from it and hide what they care for.
+/// A visitor that ignores everything; base of visitors that handle only some values.
 struct IgnoreFields {
     void fraction(const char*, const auto&) {}
     void anisotropy(const auto&) {}
@@ -95,7 +95,7 @@ struct IgnoreFields {
     void attributes(const auto&) {}
 };
 
-/// Calls f for each image that a kind is made of, by a reference that may be changed.
+/// Visitor that calls f for each image of a kind, by a modifiable reference.
 template <class F>
 struct ImageVisitor : IgnoreFields {
     F& f;
@@ -103,7 +103,7 @@ struct ImageVisitor : IgnoreFields {
     void image(auto& index) { f(index); }
 };
 
-/// Shows a visitor each value of what a variant of kinds holds, const or not.
+/// Calls a visitor for each value of a variant of kinds, const or not.
 template <class Kind, class Visitor>
 void visit_fields(Kind& kind, Visitor&& visitor) {
     std::visit([&](auto& held) { std::decay_t<decltype(held)>::fields(held, visitor); }, kind);

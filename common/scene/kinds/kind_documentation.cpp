@@ -11,7 +11,7 @@
 namespace treefarm {
 namespace {
 
-/// Writes down what a kind's values are, and what is refused of them together.
+/// Visitor that documents a kind's values and its rules.
 class DescribeFields {
   public:
     const std::string& values() const { return values_; }
@@ -22,7 +22,7 @@ class DescribeFields {
         add(name, "one of " + std::to_string(static_cast<int>(last) + 1));
     }
     void rule(bool, const char* what, const char*) {
-        // The words of a shape's rule go on from its name.
+        // The text of a shape's rule continues its name.
         const std::string text(what);
         rules_ += (rules_.empty() ? "" : "; ") + (text.starts_with("has ") ? "it " + text : text);
     }

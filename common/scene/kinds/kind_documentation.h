@@ -5,8 +5,8 @@
 
 namespace treefarm {
 
-/// Tables in Markdown of all kinds of shapes, materials, emitters and textures with their values and ranges, in packed
-/// order, as their fields() name them: docs/generated/scene.md.
+/// Markdown tables of all kinds of shapes, materials, emitters and textures, with values and ranges in packed order,
+/// from their fields(): docs/generated/scene.md.
 std::string kind_documentation();
 
 }  // namespace treefarm

@@ -22,7 +22,7 @@
 
 namespace treefarm {
 
-/// Every kind of material. Its place here is its number in packed form: new ones come last.
+/// All kinds of materials. The index of a kind is its number in packed form: new kinds come last.
 using MaterialKind =
     std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, ThinDielectricMaterial, PlasticMaterial,
                  BlendMaterial, NullMaterial, RoughDiffuseMaterial, PhongMaterial, WardMaterial, PrincipledMaterial,

@@ -7,7 +7,7 @@
 
 namespace treefarm {
 
-/// Area of a shape's own surface, in its group's space, in double: an overload for each kind, or it does not compile.
+/// Area of a shape's own surface, in its group's space, in double. Each kind needs an overload.
 inline double area(const Mesh& mesh) {
     double sum = 0;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {

@@ -12,8 +12,8 @@
 
 namespace treefarm {
 
-/// Every kind of shape. Its place here decides its number in packed form (pack/shape_codec.h): new ones come last.
-/// Beside its fields() each says the box of its own surface, in its group's space.
+/// All kinds of shapes. The index of a kind decides its number in packed form (pack/shape_codec.h): new kinds come
+/// last. Each kind has fields() and the box of its own surface, in its group's space.
 using ShapeKind = std::variant<Mesh, Sphere, Disk, Cylinder, Instance>;
 
 }  // namespace treefarm

@@ -10,9 +10,9 @@
 
 namespace treefarm {
 
-/// Every kind of texture. Its place here is its number in packed form: new ones come last. Beside its fields() each
-/// says, of a scene that knows range and mean of an image and of an attribute of its meshes (range_of_image,
-/// range_of_attribute, mean_of_image, mean_of_attribute), its own range and mean.
+/// All kinds of textures. The index of a kind is its number in packed form: new kinds come last. Each kind has
+/// fields(), and its range and mean, given a scene that knows those of images and mesh attributes (range_of_image,
+/// range_of_attribute, mean_of_image, mean_of_attribute).
 using TextureKind = std::variant<BitmapTexture, CheckerboardTexture, MeshAttributeTexture>;
 
 }  // namespace treefarm

@@ -6,7 +6,7 @@
 namespace treefarm {
 namespace {
 
-/// sin(pi x) in plain operations: the C library's sine may round differently on another machine.
+/// Sine of pi x by plain operations: the C library's sine may round differently on another machine.
 double sin_pi(double x) {
     const double whole = std::floor(x + 0.5);
     const double t = M_PI * (x - whole), t2 = t * t;
@@ -18,12 +18,13 @@ double sin_pi(double x) {
     return std::fmod(whole, 2.0) == 0.0 ? sum : -sum;
 }
 
-/// sin(pi x) / (pi x)
+/// Normalised sinc: sin(pi x) / (pi x).
 double sinc(double x) {
     return x < 1e-9 ? 1.0 : sin_pi(x) / (M_PI * x);
 }
 
-/// Mitchell and Netravali, "Reconstruction Filters in Computer Graphics" (1988); B = 0, C = 1/2 is Catmull and Rom's.
+/// Cubic filter of Mitchell and Netravali, "Reconstruction Filters in Computer Graphics" (1988); B = 0, C = 1/2 is
+/// Catmull and Rom's.
 double cubic(double x, double b, double c) {
     if (x < 1.0) return (((12 - 9 * b - 6 * c) * x + (-18 + 12 * b + 6 * c)) * x * x + 6 - 2 * b) / 6;
     if (x < 2.0) return ((((-b - 6 * c) * x + 6 * b + 30 * c) * x - 12 * b - 48 * c) * x + 8 * b + 24 * c) / 6;

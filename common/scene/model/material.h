@@ -7,39 +7,41 @@
 
 namespace treefarm {
 
-/// A surface whose shading normal is tilted.
+/// Maps that tilt the shading normal of a surface.
 struct NormalDetail {
     std::int32_t bump = kNone;  ///< texture of displacements along the normal, in scene units
     float bump_scale = 1.0f;
-    std::int32_t normal_map = kNone;  ///< texture that, times normal_scale, stores normals as (n + 1) / 2, in the
-                                      ///< tangent frame
+    std::int32_t normal_map =
+        kNone;  ///< texture that, times normal_scale, stores normals as (n + 1) / 2, in the tangent frame
     Rgb normal_scale{1.0f};
-    /// A tilted normal that faces away from where the surface is seen from is turned by half a turn about the surface's
-    /// own (Schuessler et al. 2017), as Mitsuba does since 3.7.1. Otherwise it is bent until it faces there.
+    /// A tilted normal that faces away from the viewer is rotated by half a turn about the surface's normal (Schuessler
+    /// et al. 2017), as in Mitsuba since 3.7.1. Otherwise it is bent until it faces the viewer.
     bool flip_invalid = false;
-    /// Light that comes in at a grazing angle is dimmed towards the tilted terminator (Conty Estevez et al. 2019), as
-    /// Mitsuba does since 3.7.1.
+    /// Light at grazing angles is dimmed towards the tilted terminator (Conty Estevez et al. 2019), as in Mitsuba since
+    /// 3.7.1.
     bool shadowed = false;
     bool operator==(const NormalDetail&) const = default;
     bool any() const { return bump != kNone || normal_map != kNone; }
 };
 
-/// How a surface scatters.
+/// Scattering of a surface.
 ///
-/// The front is where the shading normal points. Opaque materials are black on their back unless `twosided`; those that
-/// transmit (dielectric, thin dielectric, null, and blends with them) have both sides by nature and are never twosided.
+/// The front is the side of the shading normal. Opaque materials are black on their back unless `twosided`.
+/// Transmitting materials (dielectric, thin dielectric, null, and blends with them) have both sides and are never
+/// twosided.
 struct Material {
     MaterialKind bsdf;
     bool twosided = false;      ///< the back scatters like the front, mirrored, or as `back` says
-    std::int32_t back = kNone;  ///< twosided only: index of the material of the back, below this material's own
-    /// Factors that textures take above 1 stay so (Mitsuba 2 and 3); otherwise they are scaled down (0.6).
+    std::int32_t back = kNone;  ///< twosided only: index of the back's material, smaller than this material's own
+    /// Factors above 1 from textures are kept (Mitsuba 2 and 3); otherwise they are scaled down (0.6).
     bool unlimited = false;
-    FloatInput opacity{1.0f};  ///< probability that a ray meets the surface at all, in [0, 1]; of the shape's material
+    FloatInput opacity{
+        1.0f};  ///< probability that a ray hits the surface at all, in [0, 1]; only that of the shape's material counts
     NormalDetail detail;
     std::string name;
     Location where;
 
-    /// Whether factors that textures take above 1 stay so: not in kinds that would send back light without end.
+    /// Whether factors above 1 from textures are kept: not in kinds that would reflect light without end.
     bool keeps_factors() const {
         const auto needs_limit = [](const auto& kind) {
             if constexpr (requires { kind.needs_limit(); })

@@ -8,12 +8,13 @@
 
 namespace treefarm {
 
-/// Something that rays can hit. Its place in Scene::shapes is its id everywhere (the geometry's id, the emitter table).
+/// A surface that rays can hit. Its index in Scene::shapes is its id everywhere (id of the geometry, table of
+/// emitters).
 struct Shape {
     ShapeKind geometry;
-    std::int32_t material = kNone;  ///< kNone for instances only: their group's shapes have their own
+    std::int32_t material = kNone;  ///< kNone for instances only: the shapes of their group have their own
     std::int32_t emitter = kNone;   ///< index of an area emitter on the front side, or kNone; never in a group
-    std::int32_t group = kNone;  ///< the group it belongs to, below Scene::group_count; kNone: it stands in the world
+    std::int32_t group = kNone;     ///< index of its group, below Scene::group_count; kNone: it is in the world
     std::string name;
     Location where;
 };

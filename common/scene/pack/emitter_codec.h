@@ -9,8 +9,8 @@ namespace treefarm::packed {
 
 ///     emitter  := kind:u8 value*
 ///
-/// kind: its place in EmitterKind (kinds/emitters.h); values: as fields() of that kind names them, vectors and colours
-/// as three f32, a color as rgb texture:i32, indices as i32, flags as u8.
+/// kind: index in EmitterKind (kinds/emitters.h); values: in the order of the kind's fields(), vectors and colours as
+/// three f32, a color as rgb texture:i32, indices as i32, flags as u8.
 
 inline constexpr std::size_t kMinEmitterBytes = 13;
 

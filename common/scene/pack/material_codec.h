@@ -12,13 +12,13 @@ namespace treefarm::packed {
 ///     color     := rgb texture:i32
 ///     number    := f32 texture:i32
 ///
-/// kind: its place in MaterialKind (kinds/materials.h); values: as fields() of that kind names them.
+/// kind: index in MaterialKind (kinds/materials.h); values: in the order of the kind's fields().
 
 inline constexpr std::size_t kMinMaterialBytes = 27;
 
 void put_material(ByteWriter& out, const Material& material);
 
-/// `index` is the material's own: those that it refers to stand before it.
+/// A material; `index`: its own, below which the indices of its parts must be.
 Material get_material(ByteReader& in, std::size_t index, std::size_t texture_count);
 
 }  // namespace treefarm::packed

@@ -12,7 +12,7 @@
 
 namespace treefarm::packed {
 
-/// Packs the values of a kind (kinds/fields.h).
+/// Visitor that packs the values of a kind (kinds/fields.h).
 class PutFields {
   public:
     explicit PutFields(ByteWriter& out) : out_(out) {}
@@ -84,14 +84,15 @@ class PutFields {
     ByteWriter& out_;
 };
 
-/// How many there are of what indices name.
+/// Numbers of the elements that indices may refer to.
 struct PackedCounts {
-    std::size_t parts = 0;  ///< materials before the one that is read
+    std::size_t parts = 0;  ///< materials before the one being read
     std::size_t textures = 0, images = 0, shapes = 0, groups = 0;
-    bool with_attributes = false;  ///< the mesh that is read has some
+    bool with_attributes = false;  ///< the mesh being read has attributes
 };
 
-/// Unpacks the values of a kind. Indices are held against what there is: no reader of a scene need look again.
+/// Visitor that unpacks the values of a kind. Indices are checked against PackedCounts, so readers of a scene need no
+/// checks.
 class GetFields {
   public:
     GetFields(ByteReader& in, const PackedCounts& counts) : in_(in), counts_(counts) {}
@@ -184,11 +185,11 @@ class GetFields {
 
     ByteReader& in_;
     PackedCounts counts_;
-    std::size_t vertices_ = 0, triangles_ = 0;  ///< of the mesh that is read
+    std::size_t vertices_ = 0, triangles_ = 0;  ///< of the mesh being read
 };
 
-/// The alternative of a variant that has this number, as it is by default. FormatError where there is none: "unknown
-/// kind of material 99".
+/// Default value of a variant's alternative with this number. Throws FormatError such as "unknown kind of material 99"
+/// if there is none.
 template <class Variant>
 Variant kind_of(std::size_t number, const char* what) {
     Variant kind;

@@ -12,7 +12,7 @@
 
 namespace treefarm::packed {
 
-/// Values that the parts of the packed scene have in common. Readers throw FormatError.
+/// Codecs of values that several parts of the packed scene have. Readers throw FormatError.
 
 template <class V>
 void put_vector(ByteWriter& out, const V& v) {
@@ -28,11 +28,11 @@ V get_vector(ByteReader& in) {
     return v;
 }
 
-/// Vectors that lie in memory as they are packed: their components in single precision, and nothing else.
+/// Vectors whose memory equals their packed form: their components in single precision, and nothing else.
 template <class V>
 concept PlainVector = std::is_standard_layout_v<V> && sizeof(V) == V::dimensions() * sizeof(float);
 
-/// A varint count, and the vectors' bytes in one piece: meshes are large.
+/// Writes a varint count and the bytes of all vectors in one piece, since meshes are large.
 template <PlainVector V>
 void put_vectors(ByteWriter& out, const std::vector<V>& values) {
     out.put_varint(values.size());
@@ -71,7 +71,7 @@ Enum get_enum(ByteReader& in, Enum last, const char* what) {
     return static_cast<Enum>(value);
 }
 
-/// An index below `count`.
+/// Reads an index below `count`.
 inline std::int32_t get_index(ByteReader& in, std::size_t count, const char* what) {
     const auto index = in.get<std::int32_t>();
     if (index < 0 || static_cast<std::size_t>(index) >= count)
@@ -79,7 +79,7 @@ inline std::int32_t get_index(ByteReader& in, std::size_t count, const char* wha
     return index;
 }
 
-/// An index below `count`, or kNone.
+/// Reads an index below `count`, or kNone.
 inline std::int32_t get_optional_index(ByteReader& in, std::size_t count, const char* what) {
     const auto index = in.get<std::int32_t>();
     if (index == kNone) return index;
@@ -122,7 +122,7 @@ inline FloatInput get_number(ByteReader& in, std::size_t texture_count) {
     return {value, get_optional_index(in, texture_count, "texture")};
 }
 
-/// A varint count and the elements, each of which takes at least `min_bytes`. `get` may look at the elements before.
+/// Reads a varint count and the elements, each of at least `min_bytes`. `get` may use the elements before.
 template <class T, class Get>
 void get_list(ByteReader& in, std::size_t min_bytes, std::vector<T>& values, Get get) {
     const std::size_t count = in.get_count(min_bytes);

@@ -19,7 +19,7 @@ using namespace packed;
 constexpr std::uint32_t kMagic = 0x43534654;  // "TFSC"
 constexpr std::uint32_t kVersion = 8;
 
-/// Calls f for everything that says where something stands: f(std::string& file) for images, f(Location&) for others.
+/// Calls f for each origin of a part: f(std::string& file) for images, f(Location&) for others.
 template <class AnyScene, class F>
 void for_each_origin(AnyScene& scene, F&& f) {
     for (auto& image : scene.images)
@@ -89,7 +89,7 @@ Film get_film(ByteReader& in) {
     return film;
 }
 
-/// Refuses a scene unless shapes and their emitters name each other.
+/// Throws FormatError unless shapes and their area emitters refer to each other.
 void check_area_emitters(const Scene& scene) {
     for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
         const std::int32_t index = scene.shapes[i].emitter;
@@ -117,7 +117,7 @@ void check_environments(const Scene& scene) {
     }
 }
 
-/// Adds up the bytes of a mesh's arrays.
+/// Visitor that adds up the bytes of a mesh's arrays.
 struct ArrayBytes : IgnoreFields {
     std::size_t bytes = 0;
     void vertices(const std::vector<Vec3>& list) { bytes += list.size() * sizeof(Vec3); }
@@ -146,7 +146,7 @@ Bytes encode_scene(const Scene& scene) {
     put_list(out, scene.textures, put_texture);
     put_list(out, scene.materials, put_material);
     out.put(static_cast<std::uint32_t>(scene.group_count));
-    out.reserve(array_bytes(scene));  // once: what is written before need not be copied as it grows
+    out.reserve(array_bytes(scene));  // once, so that written bytes are not copied while it grows
     put_list(out, scene.shapes, put_shape);
     put_list(out, scene.emitters, put_emitter);
     const Camera& camera = scene.camera;
@@ -177,7 +177,7 @@ Scene decode_scene(std::span<const std::uint8_t> bytes) {
     get_list(in, kMinTextureBytes, scene.textures, [&] { return get_texture(in, scene.images.size()); });
     get_list(in, kMinMaterialBytes, scene.materials,
              [&] { return get_material(in, scene.materials.size(), scene.textures.size()); });
-    // Each group has a shape, so a false count cannot make anybody allocate much.
+    // Each group has a shape, so a false count cannot cause a large allocation.
     const std::size_t group_count = in.get<std::uint32_t>();
     if (group_count > in.remaining() / kMinShapeBytes)
         throw FormatError("scene: " + std::to_string(group_count) + " groups do not fit into what remains");

@@ -9,7 +9,7 @@
 
 namespace treefarm {
 
-/// The packed form in which the scene travels to workers.
+/// The packed form of a scene, as sent to workers.
 ///
 ///     scene    := content origins size_of_content:u64
 ///     content  := magic:u32 version:u32 images textures materials groups:u32 shapes emitters camera film
@@ -20,16 +20,16 @@ namespace treefarm {
 ///
 /// Images and textures are in texture_codec.h, materials in material_codec.h, shapes in shape_codec.h, emitters in
 /// emitter_codec.h. Lists are a varint count and the elements; vectors are their components in single precision. A
-/// scene has exactly one byte form, and the bytes of equal scenes are equal.
+/// scene has exactly one byte form, so equal scenes have equal bytes.
 Bytes encode_scene(const Scene& scene);
 
-/// A hash of what a packed scene renders to: of all but where its parts stand. A scene that was moved to another
-/// folder, or whose file got a line more, keeps it. `packed`: by encode_scene.
+/// Hash of everything in a packed scene that influences the image: all but the origins of its parts. It does not change
+/// if the scene moves to another folder, or its file gets another line. `packed`: by encode_scene().
 std::uint64_t content_hash(std::span<const std::uint8_t> packed);
 
-/// Reads what encode_scene wrote. Every count is checked against what remains and every index against what it points
-/// into, so that a scene which was read can be walked without further checks; anything wrong throws FormatError.
-/// Whether the numbers make sense is validate_scene's affair, on the coordinator.
+/// Reads a scene written by encode_scene(). Every count is checked against the remaining bytes and every index against
+/// its target, so the result can be walked without further checks. Throws FormatError. Whether values make sense is
+/// checked by validate_scene(), on the coordinator.
 Scene decode_scene(std::span<const std::uint8_t> bytes);
 
 }  // namespace treefarm

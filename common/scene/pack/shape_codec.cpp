@@ -6,8 +6,8 @@
 namespace treefarm::packed {
 namespace {
 
-/// A mesh with attributes has a number of its own, so that others need not say that they have none. Kinds that come
-/// after the first five have the numbers above it.
+/// Kind number of a mesh with attributes, so that other meshes need no mark. Kinds after the first five have the
+/// numbers above it.
 constexpr std::uint8_t kMeshWithAttributes = 5;
 
 std::uint8_t number_of(const ShapeKind& kind) {

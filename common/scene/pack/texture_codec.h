@@ -9,8 +9,8 @@ namespace treefarm::packed {
 ///     image    := width:u16 height:u16 channels:u8 floating:u8 (decode:f32[256] bytes | floats)
 ///     texture  := kind:u8 value* name
 ///
-/// kind: its place in TextureKind (kinds/textures.h); values: as fields() of that kind names them, indices as i32,
-/// flags and choices as u8, colours as three f32, the transform of coordinates as its two rows.
+/// kind: index in TextureKind (kinds/textures.h); values: in the order of the kind's fields(), indices as i32, flags
+/// and choices as u8, colours as three f32, the transform of coordinates as its two rows.
 
 inline constexpr std::size_t kMinImageBytes = 7, kMinTextureBytes = 3;
 

@@ -23,26 +23,26 @@ struct EmitterTextureVisitor : IgnoreFields {
 template <class EmitterRef>
 concept IsEmitter = std::same_as<std::remove_const_t<EmitterRef>, Emitter>;
 
-/// Calls f(texture index) for each texture that an emitter names, by a reference that may be changed.
+/// Calls f(texture index) for each texture of an emitter, by a modifiable reference.
 template <IsEmitter EmitterRef, class F>
 void for_each_texture(EmitterRef& emitter, F&& f) {
     visit_fields(emitter.kind, EmitterTextureVisitor<F>(f));
 }
 
-/// Calls f(image index) for each image that an emitter is made of, by a reference that may be changed.
+/// Calls f(image index) for each image of an emitter, by a modifiable reference.
 template <IsEmitter EmitterRef, class F>
 void for_each_image(EmitterRef& emitter, F&& f) {
     visit_fields(emitter.kind, ImageVisitor<F>(f));
 }
 
-/// Whether a texture varies the light of an emitter.
+/// Whether a texture modulates the light of an emitter.
 inline bool is_textured(const Emitter& emitter) {
     bool found = false;
     for_each_texture(emitter, [&](std::int32_t) { found = true; });
     return found;
 }
 
-/// Index of the shape that shines, or kNone.
+/// Index of the shape that emits, or kNone.
 inline std::int32_t shape_of(const Emitter& emitter) {
     struct : IgnoreFields {
         std::int32_t found = kNone;
@@ -52,7 +52,7 @@ inline std::int32_t shape_of(const Emitter& emitter) {
     return visitor.found;
 }
 
-/// Where a light that is a point shines; none for others.
+/// Cone of light of a point emitter; empty for other kinds.
 inline std::optional<LightCone> cone_of(const Emitter& emitter) {
     return std::visit(
         [](const auto& kind) -> std::optional<LightCone> {

@@ -9,7 +9,7 @@
 namespace treefarm {
 namespace {
 
-/// What fields tell of a kind without knowing it.
+/// Traits that follow from a kind's fields.
 struct FieldTraits : IgnoreFields {
     MaterialTraits& traits;
     explicit FieldTraits(MaterialTraits& to) : traits(to) {}
@@ -76,7 +76,7 @@ MaterialTraits& MaterialTraits::operator|=(const MaterialTraits& other) {
 
 MaterialTraits material_traits(const Scene& scene, std::int32_t material) {
     MaterialTraits traits;
-    // A part stands below what it is part of: taking the highest first visits each once, however they are shared.
+    // A part has a smaller index than its whole: by taking the highest first, each is visited once, even if shared.
     std::set<std::int32_t, std::greater<>> reached = {material};
     while (!reached.empty()) {
         const std::int32_t index = *reached.begin();

@@ -28,14 +28,14 @@ struct PartVisitor : IgnoreFields {
     }
 };
 
-/// Calls f(input) for each ColorInput and FloatInput that the BSDF of a material holds: what scatters, neither opacity
-/// nor normals. `MaterialRef` is Material or const Material.
+/// Calls f(input) for each ColorInput and FloatInput of a material's BSDF, without opacity and normals. `MaterialRef`
+/// is Material or const Material.
 template <class MaterialRef, class F>
 void for_each_input(MaterialRef& material, F&& f) {
     visit_fields(material.bsdf, InputVisitor<F>(f));
 }
 
-/// Calls f(texture index) for each texture that a material names, by a reference that may be changed.
+/// Calls f(texture index) for each texture of a material, by a modifiable reference.
 template <class MaterialRef, class F>
 void for_each_texture(MaterialRef& material, F&& f) {
     const auto visit = [&](auto& index) {
@@ -47,8 +47,8 @@ void for_each_texture(MaterialRef& material, F&& f) {
     visit(material.detail.normal_map);
 }
 
-/// Calls f(material index) for each material that a material is made of: parts, and the back where it has its own. By a
-/// reference that may be changed.
+/// Calls f(material index) for each material that a material consists of (parts, and a back of its own), by a
+/// modifiable reference.
 template <class MaterialRef, class F>
 void for_each_part(MaterialRef& material, F&& f) {
     visit_fields(material.bsdf, PartVisitor<F>(f));

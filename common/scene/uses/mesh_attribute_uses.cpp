@@ -31,7 +31,7 @@ std::vector<std::set<std::string>> mesh_attribute_uses(const Scene& scene) {
         const std::string name = texture ? attribute_of(*texture) : std::string();
         if (!name.empty()) names.insert(name);
     };
-    // The parts of a material lie below it.
+    // Parts of a material have smaller indices.
     std::vector<Names> materials(scene.materials.size());
     for (std::size_t i = 0; i < materials.size(); ++i) {
         for_each_texture(scene.materials[i], [&](std::int32_t texture) { add(materials[i], texture); });

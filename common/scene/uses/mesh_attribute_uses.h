@@ -9,14 +9,14 @@
 
 namespace treefarm {
 
-/// Name of the mesh attribute that a texture is made of; empty if it is made of none.
+/// Name of the mesh attribute that a texture shows; empty for other textures.
 std::string attribute_of(const Texture& texture);
 
-/// Per shape: names of the mesh attributes that its material, with its parts, and its emitter ask for. Indices may be
-/// out of range.
+/// Per shape: names of the mesh attributes that its material, with parts, and its emitter need. Indices may be out of
+/// range.
 std::vector<std::set<std::string>> mesh_attribute_uses(const Scene& scene);
 
-/// Removes attributes of meshes that no texture asks for.
+/// Removes mesh attributes that no texture needs.
 void remove_unused_attributes(Scene& scene);
 
 }  // namespace treefarm

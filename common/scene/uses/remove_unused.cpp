@@ -10,7 +10,7 @@
 namespace treefarm {
 namespace {
 
-/// Which elements of a list are used, and where they go.
+/// Marks of the used elements of a list, and their new indices.
 class Usage {
   public:
     explicit Usage(std::size_t count) : kept_(count, kNone) {}
@@ -20,7 +20,7 @@ class Usage {
     }
     bool marked(std::size_t index) const { return kept_[index] != kNone; }
 
-    /// Drops what is not marked and numbers the rest.
+    /// Removes unmarked elements and renumbers the others.
     template <class T>
     void compact(std::vector<T>& list) {
         std::int32_t next = 0;
@@ -50,7 +50,7 @@ std::vector<std::int32_t> remove_unused(Scene& scene) {
     Usage materials(scene.materials.size()), textures(scene.textures.size()), images(scene.images.size());
     for (const Shape& shape : scene.shapes)
         materials.mark(shape.material);
-    // The parts of a material lie below it: from the top down every whole comes before its parts.
+    // Parts of a material have smaller indices: from the top down every whole comes before its parts.
     for (std::size_t i = scene.materials.size(); i-- > 0;)
         if (materials.marked(i)) for_each_part(scene.materials[i], [&](std::int32_t part) { materials.mark(part); });
     for (std::size_t i = 0; i < scene.materials.size(); ++i)

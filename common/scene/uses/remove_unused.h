@@ -7,8 +7,8 @@
 
 namespace treefarm {
 
-/// Removes materials that no shape has, textures that no material and no emitter uses, and images that no texture and
-/// no emitter uses; indices follow. Returns the new index of every image that there was, or kNone.
+/// Removes materials without shapes, textures without materials and emitters, and images without textures and emitters,
+/// and adjusts indices. Returns the new index of each image, or kNone.
 std::vector<std::int32_t> remove_unused(Scene& scene);
 
 }  // namespace treefarm

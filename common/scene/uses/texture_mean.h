@@ -8,7 +8,7 @@ namespace treefarm {
 /// Mean of a texture over all its texels, each counted once.
 Rgb texture_mean(const Scene& scene, std::int32_t texture);
 
-/// Bytes that the pixels of an image take, its table included.
+/// Bytes of an image's pixels, its table included.
 std::size_t image_bytes(const TextureImage& image);
 
 }  // namespace treefarm

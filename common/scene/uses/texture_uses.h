@@ -10,7 +10,7 @@ namespace treefarm {
 template <class TextureRef>
 concept IsTexture = std::same_as<std::remove_const_t<TextureRef>, Texture>;
 
-/// Calls f(image index) for each image that a texture is made of, by a reference that may be changed.
+/// Calls f(image index) for each image of a texture, by a modifiable reference.
 template <IsTexture TextureRef, class F>
 void for_each_image(TextureRef& texture, F&& f) {
     visit_fields(texture.kind, ImageVisitor<F>(f));

@@ -8,8 +8,7 @@
 
 namespace treefarm {
 
-/// Something in a scene that is risky: it cannot be rendered, or will hardly look as it was meant to, or costs more
-/// than it need.
+/// A risk in a scene: it cannot be rendered, will hardly look as intended, or costs more than necessary.
 struct Finding {
     enum class Severity : std::uint8_t {
         error,    ///< a render refuses it
@@ -20,8 +19,8 @@ struct Finding {
     Severity severity = Severity::warning;
     std::string kind;  ///< one of a fixed list, for programs: "degenerate triangles" (docs/use/scenes.md)
     Location where;
-    std::string what;  ///< what is wrong
-    std::string cure;  ///< what to do; may be empty
+    std::string what;  ///< the fault
+    std::string cure;  ///< the cure; may be empty
 
     /// One line: "file:line:col: severity: what; cure".
     std::string text() const;

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Whether a file lies below a folder, both as they are once links are followed.
+/// Whether a file is below a folder after links are followed.
 bool lies_below(const fs::path& file, const fs::path& folder) {
     std::error_code error;
     const fs::path real_folder = fs::canonical(folder, error);

@@ -8,11 +8,10 @@
 
 namespace treefarm {
 
-/// Checks a scene that a reader has put together: every index, every number's domain as the scene's headers state it,
-/// and that coordinates stay below 1e18. What is wrong throws InputError at its place. Triangles without area are
-/// removed, roughness below 1e-4 is raised to it, and factors that a texture takes above 1 are scaled down (or stay, in
-/// materials that are unlimited); these, and
-/// a scene without shapes or emitters, give a warning.
+/// Checks a scene made by a reader: every index, every number's domain as stated in the scene's headers, and that
+/// coordinates are below 1e18. Throws InputError at the fault's location. With a warning it removes triangles without
+/// area, raises roughness below 1e-4 to it, and scales down factors above 1 from textures (or keeps them in unlimited
+/// materials); a scene without shapes or emitters gives a warning, too.
 void validate_scene(Scene& scene, std::vector<Warning>& warnings);
 
 }  // namespace treefarm

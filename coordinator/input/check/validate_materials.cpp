@@ -18,7 +18,7 @@ class MaterialCheck {
           transmits_(transmits),
           warnings_(warnings) {}
 
-    /// Whether light passes through the material.
+    /// Checks the material. Returns whether it transmits light.
     bool run() {
         passes_ = own_traits(material_).lobes.transmits();
         visit_fields(material_.bsdf, *this);
@@ -36,8 +36,8 @@ class MaterialCheck {
         return passes_;
     }
 
-    /// A constant outside 0 to 1 is refused. One that its texture takes above 1 is scaled down or kept, as the program
-    /// of the file's version does.
+    /// Refuses a constant outside 0 to 1. A factor that its texture raises above 1 is scaled down or kept, like in the
+    /// program of the file's version.
     void fraction(const char* name, ColorInput& input) {
         const std::string what = std::string("the ") + name;
         for (int i = 0; i < 3; ++i)
@@ -52,7 +52,7 @@ class MaterialCheck {
                                                       " in its texture: it sends back more light than it gets"});
     }
 
-    /// A number counts as 1 wherever its texture takes it above.
+    /// A number above 1 from its texture counts as 1.
     void fraction(const char* name, FloatInput& input) { reached_fraction(name, input); }
 
     void anisotropy(FloatInput& input) { fraction("anisotropy", input); }
@@ -69,7 +69,7 @@ class MaterialCheck {
             number(name, FloatInput{input.value[i], input.texture}, least, most);
     }
 
-    /// Scales two reflectances down where their sum goes above 1, as in Mitsuba 0.6.
+    /// Scales two reflectances down if their sum exceeds 1, as in Mitsuba 0.6.
     void together(ColorInput& a, ColorInput& b) {
         float sum = 0.0f;
         for (int i = 0; i < 3; ++i)
@@ -112,7 +112,7 @@ class MaterialCheck {
         throw InputError(material_.where, what, cure);
     }
 
-    /// The index of a material that stands before this one, so that none contains itself.
+    /// Index of a material before this one, so that none contains itself.
     std::size_t beneath(std::int32_t index) const {
         if (index < 0 || static_cast<std::size_t>(index) >= index_)
             refuse("a material contains itself, or one that does not exist", "give it another one");
@@ -129,17 +129,17 @@ class MaterialCheck {
         return input.value[channel] * (input.varies() ? range(input.texture).max : 1.0f);
     }
 
-    /// Share of 1 to which Mitsuba 0.6 scales a factor that a texture takes above it.
+    /// Value to which Mitsuba 0.6 scales a factor that a texture raises above 1.
     static constexpr float kScaledTo = 0.99f;
 
-    /// The most that the texture takes a factor to.
+    /// Largest value that the texture gives to a factor.
     float reached(std::int32_t texture, float largest, const std::string& what) const {
         const ValueRange& values = range(texture);
         if (values.min < 0.0f) refuse(what + " has a texture with negative values", "give values from 0 to 1");
         return largest * values.max;
     }
 
-    /// The most that a number comes to; refused where it is no fraction.
+    /// Largest value of a number. Throws InputError if it is no fraction.
     float reached_fraction(const char* name, const FloatInput& input) const {
         const std::string what = std::string("the ") + name;
         if (!(input.value >= 0.0f && input.value <= (input.varies() ? 1e30f : 1.0f)))
@@ -147,7 +147,7 @@ class MaterialCheck {
         return input.varies() ? reached(input.texture, input.value, what) : input.value;
     }
 
-    /// Scale that brings a factor, taken to `most` by its texture, down to its limit; 1 within rounding of the limit.
+    /// Scale that brings a factor with a maximum of `most` down to its limit; 1 within rounding of the limit.
     float fraction_scale(float most, const std::string& what) {
         if (!(most > 1.0f)) return 1.0f;
         if (most <= 1.0f + 1e-5f) return 1.0f / most;

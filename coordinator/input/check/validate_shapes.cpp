@@ -12,7 +12,7 @@ namespace {
                      cure);
 }
 
-/// Twice the triangle's area is zero (or too small for single precision to give it a normal).
+/// Whether twice the triangle's area is zero, or too small for a normal in single precision.
 bool without_area(const Mesh& mesh, std::size_t triangle) {
     const Vec3& a = mesh.positions[mesh.indices[3 * triangle]];
     const Vec3& b = mesh.positions[mesh.indices[3 * triangle + 1]];
@@ -22,7 +22,7 @@ bool without_area(const Mesh& mesh, std::size_t triangle) {
     return !(squared > 0.0f) || !std::isfinite(1.0f / std::sqrt(squared));
 }
 
-/// Removes triangles without area; returns how many.
+/// Removes triangles without area and returns their number.
 std::size_t drop_degenerate(Mesh& mesh) {
     const std::size_t count = mesh.triangle_count();
     std::size_t kept = 0;
@@ -40,7 +40,7 @@ std::size_t drop_degenerate(Mesh& mesh) {
     return count - kept;
 }
 
-/// Checks the values of a kind of shape, as fields() names them, and what only its scene can tell.
+/// Checks the values of a kind of shape in the order of its fields(), and rules that involve the scene.
 class ShapeCheck {
   public:
     ShapeCheck(Shape& shape, const std::vector<Box3>& groups, std::vector<Warning>& warnings)
@@ -115,10 +115,10 @@ class ShapeCheck {
                        "uses vertex " + std::to_string(index + std::uint64_t{1}) + " of " + std::to_string(vertices_),
                        "repair the mesh");
     }
-    void attributes(const auto&) const {}  // check_mesh_attributes() knows who asks for them
+    void attributes(const auto&) const {}  // check_mesh_attributes() knows which are needed
 
   private:
-    /// What is left to check of a mesh whose indices are right: that there are triangles with area.
+    /// Remaining check of a mesh with valid indices: it must have triangles with area.
     void check_whole(Mesh& mesh) {
         if (const std::size_t dropped = drop_degenerate(mesh); dropped > 0)
             warnings_.push_back(
@@ -127,7 +127,7 @@ class ShapeCheck {
                                    " have no area and were left out"});
         if (mesh.indices.empty()) refuse(shape_, "has no triangles", "repair or remove it");
     }
-    /// What is left to check of an instance: that what it places stays near enough.
+    /// Remaining check of an instance: the shapes it places must stay within the range of coordinates.
     void check_whole(const Instance& instance) const {
         const Box3& box = groups_[static_cast<std::size_t>(instance.group)];
         for (int corner = 0; corner < 8; ++corner)
@@ -135,7 +135,7 @@ class ShapeCheck {
                                 corner & 4 ? box.max.z : box.min.z) *
                                instance.to_world);
     }
-    /// What is left to check of a shape that a formula gives: that its surface stays near enough.
+    /// Remaining check of an analytic shape: its surface must stay within the range of coordinates.
     void check_whole(const auto& analytic) const {
         const Box3 box = analytic.box();
         if (is_too_far(box.min) || is_too_far(box.max))
@@ -145,7 +145,7 @@ class ShapeCheck {
     Shape& shape_;
     const std::vector<Box3>& groups_;
     std::vector<Warning>& warnings_;
-    std::size_t vertices_ = 0;  ///< of the mesh that is checked
+    std::size_t vertices_ = 0;  ///< of the mesh being checked
 };
 
 void check_links(const Shape& shape, std::size_t index, const Scene& scene) {
@@ -178,7 +178,7 @@ void check_shapes(Scene& scene, std::vector<Warning>& warnings) {
     if (scene.group_count < 0 || static_cast<std::size_t>(scene.group_count) > scene.shapes.size())
         throw InputError(Location{}, "the scene has more groups than shapes", "");
     std::vector<Box3> groups(static_cast<std::size_t>(scene.group_count));
-    // Instances come last: they need the boxes of what they place.
+    // Instances come last: they need the boxes of the shapes that they place.
     for (const bool instances : {false, true})
         for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
             Shape& shape = scene.shapes[i];

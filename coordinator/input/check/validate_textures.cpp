@@ -14,7 +14,7 @@ ValueRange check_values(const float* begin, const float* end, const Location& wh
     return {*min, *max};
 }
 
-/// The range of the bytes that occur.
+/// Range of the values of the bytes that occur.
 ValueRange range_of_bytes(const TextureImage& image) {
     std::array<bool, 256> occurs{};
     for (const std::uint8_t byte : image.bytes)
@@ -47,7 +47,7 @@ class TextureCheck {
     TextureCheck(const Scene& scene, const Texture& texture, const std::vector<ValueRange>& images)
         : scene_(scene), texture_(texture), images_(images) {}
 
-    /// The range of its values.
+    /// Range of the texture's values.
     ValueRange run() const {
         visit_fields(texture_.kind, *this);
         return std::visit([this](const auto& kind) { return kind.range(*this); }, texture_.kind);
@@ -61,7 +61,7 @@ class TextureCheck {
     }
     void flag(const char*, bool) const {}
     void choice(const char*, auto, auto) const {}
-    void mesh_attribute(const std::string&) const {}  // shapes are asked for theirs
+    void mesh_attribute(const std::string&) const {}  // checked for each shape
     void color(const char* name, const Rgb& value) const {
         if (!is_finite(value))
             refuse("the " + title() + " has a " + name + " that is not finite",

@@ -7,7 +7,7 @@
 
 namespace treefarm {
 
-/// Something about the input that a person should know, though the scene can be rendered.
+/// A problem of the input that does not prevent a render.
 struct Warning {
     Location where;
     std::string what;

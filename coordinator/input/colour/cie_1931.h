@@ -5,9 +5,9 @@
 
 namespace treefarm {
 
-/// The CIE 1931 standard observer (2 degrees) and the standard illuminant D65 (relative power), at every nanometre from
-/// 360 to 830. Tables at 5 nm, interpolated with a cubic through the four nearest entries: the colour of a smooth or
-/// piecewise linear spectrum then agrees with tables at 1 nm (Mitsuba 0.6's) to better than 1e-4.
+/// The CIE 1931 standard observer (2 degrees) and the standard illuminant D65 (relative power), per nanometre from 360
+/// to 830. Interpolated from tables at 5 nm with a cubic through the four nearest entries; for smooth or piecewise
+/// linear spectra, colours agree with tables at 1 nm (Mitsuba 0.6's) to better than 1e-4.
 struct CieTables {
     static constexpr int kFirst = 360, kLast = 830;
     static constexpr std::size_t kCount = kLast - kFirst + 1;

@@ -21,8 +21,8 @@ double days_since_2000(const Observation& o, double universal_hours) {
     return day_number - 0.5 + universal_hours / 24.0 - 2451545.0;
 }
 
-/// Tables over the wavelength (nm) of Mitsuba 0.6's sunmodel.h, linear between their entries and 0 outside. Mixed gases
-/// absorb beyond 750 nm only, where the sun's table has ended.
+/// Tables of Mitsuba 0.6's sunmodel.h over the wavelength (nm), linear between entries and 0 outside. Mixed gases are
+/// left out: they absorb beyond 750 nm only, where the sun's table has ended.
 using Table = std::span<const std::pair<double, double>>;
 
 double value_at(Table table, double nanometres) {
@@ -43,7 +43,7 @@ constexpr std::pair<double, double> kSun[] = {
     {660, 21970.2}, {670, 21526.7}, {680, 21097.9}, {690, 20728.3}, {700, 20240.4}, {710, 19870.8}, {720, 19427.2},
     {730, 19072.4}, {740, 18628.9}, {750, 18259.2}};
 
-/// Absorption by ozone, 1/cm: k_oAmplitudes, from where the visible spectrum begins.
+/// Absorption by ozone, 1/cm: k_oAmplitudes, from the beginning of the visible spectrum.
 constexpr std::pair<double, double> kOzone[] = {
     {355, 0.0},   {445, 0.003}, {450, 0.003}, {455, 0.004}, {460, 0.006}, {465, 0.008}, {470, 0.009}, {475, 0.012},
     {480, 0.014}, {485, 0.017}, {490, 0.021}, {495, 0.025}, {500, 0.03},  {505, 0.035}, {510, 0.04},  {515, 0.045},
@@ -83,7 +83,7 @@ SkyAngles sun_position(const Observation& o) {
     sun.zenith = std::acos(std::clamp(cosine, -1.0, 1.0));
     sun.azimuth = std::atan2(-std::sin(hour_angle),
                              std::tan(declination) * std::cos(latitude) - std::sin(latitude) * std::cos(hour_angle));
-    // Seen from the surface, not from the centre of the earth: its radius over the distance of the sun.
+    // Parallax, since the view is from the surface: the earth's radius over the distance of the sun.
     sun.zenith += 6371.01 / 149597890.0 * std::sin(sun.zenith);
     return sun;
 }

@@ -12,8 +12,8 @@ using Rgb64 = Imath::Color3<double>;
 
 constexpr std::size_t kControlPoints = 6, kTurbidities = 10, kColumns = 10, kElevations = 30;
 
-/// Where a number lies among the nodes 0, 1... `count` - 1: the node before it, and how far it is to the next one, from
-/// 0 to 1.
+/// Position of a number among the nodes 0, 1... `count` - 1: the node before it, and the fraction of the way to the
+/// next, from 0 to 1.
 struct GridPosition {
     std::size_t node;
     double fraction;
@@ -25,7 +25,7 @@ GridPosition position_among(std::size_t count, double at) {
     return {node, inside - static_cast<double>(node)};
 }
 
-/// Bernstein's polynomials of degree 5: the weights of the control points of a Bezier curve at t, from 0 to 1.
+/// Bernstein polynomials of degree 5: weights of the control points of a Bezier curve at t, from 0 to 1.
 std::array<double, kControlPoints> bezier_weights(double t) {
     constexpr double kBinomial[kControlPoints] = {1.0, 5.0, 10.0, 10.0, 5.0, 1.0};
     std::array<double, kControlPoints> weights;
@@ -38,7 +38,7 @@ std::array<double, kControlPoints> bezier_weights(double t) {
     return weights;
 }
 
-/// A channel's columns: linear in turbidity and albedo, a curve over the cube root of the elevation.
+/// A channel's columns: linear in turbidity and albedo, a Bezier curve over the cube root of the elevation.
 std::array<double, kColumns> interpolate(const HosekWilkieTable& table, double turbidity, double albedo,
                                          double sun_elevation) {
     const GridPosition at_turbidity = position_among(kTurbidities, turbidity - 1.0);

@@ -7,18 +7,17 @@
 
 namespace treefarm {
 
-/// The clear sky of Hosek and Wilkie 2012 (An analytic model for full spectral sky-dome radiance, ACM Transactions on
+/// Clear sky of Hosek and Wilkie 2012 (An analytic model for full spectral sky-dome radiance, ACM Transactions on
 /// Graphics 31, 4), in the authors' version for linear Rec. 709.
 class HosekWilkieSky {
   public:
-    /// Turbidity from 1 to 10, albedo of the ground from 0 to 1 in each channel, elevation of the sun in radians from 0
+    /// Turbidity from 1 to 10; albedo of the ground from 0 to 1 in each channel; elevation of the sun in radians from 0
     /// (the horizon) to pi / 2.
     HosekWilkieSky(double turbidity, const Imath::Color3<double>& albedo, double sun_elevation);
 
-    /// Radiance towards a direction `zenith` radians from straight up (at most pi / 2) and `from_sun` radians from the
-    /// centre of the sun, W / (m^2 sr), weighted with the matching functions: divided by the integral of ybar (106.857
-    /// nm) it is what a light of equal radiance at all wavelengths would have per nm. Not negative: what the fit has
-    /// below 0 counts as 0.
+    /// Radiance from a direction `zenith` radians from straight up (at most pi / 2) and `from_sun` radians from the
+    /// centre of the sun, W / (m^2 sr), weighted with the matching functions. Divided by the integral of ybar (106.857
+    /// nm) it is the radiance per nm of a light that is equal at all wavelengths. Negative values of the fit become 0.
     Imath::Color3<double> radiance(double zenith, double from_sun) const;
 
   private:
@@ -28,10 +27,10 @@ class HosekWilkieSky {
     std::array<Coefficients, 3> channels_;
 };
 
-/// Irradiance of the sun on a plane that faces it, linear Rec. 709, W / (m^2 nm), by the same authors' solar radiance
-/// function (Adding a solar-radiance function to the Hosek-Wilkie skylight model, IEEE Computer Graphics and
-/// Applications 33, 3, 2013) as Mitsuba 3 integrates and interpolates it. Turbidity from 1 to 10, elevation in radians;
-/// below 2 and above 89 degrees it does not change. Not negative.
+/// Irradiance of the sun on a plane perpendicular to it, linear Rec. 709, W / (m^2 nm), by the same authors' solar
+/// radiance function (Adding a solar-radiance function to the Hosek-Wilkie skylight model, IEEE Computer Graphics and
+/// Applications 33, 3, 2013) as Mitsuba 3 integrates and interpolates it. Turbidity from 1 to 10; elevation in radians,
+/// clamped to 2 to 89 degrees. Not negative.
 Imath::Color3<double> hosek_wilkie_sun(double turbidity, double sun_elevation);
 
 }  // namespace treefarm

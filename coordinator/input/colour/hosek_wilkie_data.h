@@ -36,18 +36,18 @@
 
 namespace treefarm {
 
-/// One channel of the sky in linear Rec. 709. Rows: 6 control points for the elevation of the sun (they change first),
+/// One channel of the sky in linear Rec. 709. Rows: 6 control points for the elevation of the sun (innermost),
 /// turbidities 1 to 10, albedos 0 and 1 of the ground. Columns: the coefficients A, B, C, D, E, F, G, I, H of the
-/// paper's equation, as the authors order them, then the mean radiance in W / (m^2 sr): the spectrum integrated against
-/// the channel's response.
+/// paper's equation, in the authors' order, then the mean radiance in W / (m^2 sr): the spectrum integrated against the
+/// channel's response.
 using HosekWilkieTable = double[2 * 10 * 6][10];
 
 extern const HosekWilkieTable kHosekWilkieRed;
 extern const HosekWilkieTable kHosekWilkieGreen;
 extern const HosekWilkieTable kHosekWilkieBlue;
 
-/// Irradiance of the sun on a plane that faces it, linear Rec. 709, W / (m^2 nm): by turbidity from 1 to 10, and by
-/// elevation from 2 to 89 degrees, 3 apart.
+/// Irradiance of the sun on a plane perpendicular to it, linear Rec. 709, W / (m^2 nm): by turbidity from 1 to 10, and
+/// by elevation from 2 to 89 degrees in steps of 3.
 using HosekWilkieSunTable = double[10][30][3];
 
 extern const HosekWilkieSunTable kHosekWilkieSun;

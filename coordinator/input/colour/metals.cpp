@@ -6,11 +6,10 @@
 namespace treefarm {
 namespace {
 
-/// Integrated against the CIE 1931 observer (spectrum_to_rgb, without D65) from the tables of eta and k over the
-/// wavelength in data/ior/*.spd of Mitsuba 0.6 (github.com/mitsuba-renderer/mitsuba, commit 10af06f3), which name
-/// luxpop.com as their source; those of "_palik" but Be_palik add Palik's Handbook of Optical Constants of Solids,
-/// which was not consulted itself. Mitsuba 3 has the same files. Where a table ends within the visible range the
-/// substance counts as 0 beyond, as in Mitsuba.
+/// Indices of refraction, integrated against the CIE 1931 observer (spectrum_to_rgb, without D65) from the tables of
+/// eta and k in data/ior/*.spd of Mitsuba 0.6 (github.com/mitsuba-renderer/mitsuba, commit 10af06f3), which name
+/// luxpop.com as their source; those of "_palik" except Be_palik add Palik's Handbook of Optical Constants of Solids,
+/// which was not consulted itself. Mitsuba 3 has the same files. Beyond the end of a table values are 0, as in Mitsuba.
 constexpr Metal kMetals[] = {
     {"Ag", {0.155265f, 0.116723f, 0.138381f}, {4.82834f, 3.12225f, 2.14695f}},
     {"Al", {1.65746f, 0.880369f, 0.521229f}, {9.22386f, 6.26953f, 4.837f}},

@@ -15,7 +15,7 @@ struct Metal {
     Rgb eta, k;
 };
 
-/// The metal (or semiconductor) of Mitsuba's name, "Cu" or "Au" for instance; nothing if there is none.
+/// The metal (or semiconductor) of this name in Mitsuba, such as "Cu" or "Au"; empty if there is none.
 std::optional<Metal> find_metal(const std::string& name);
 
 std::vector<std::string> metal_names();

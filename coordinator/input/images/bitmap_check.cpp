@@ -7,7 +7,7 @@
 namespace treefarm {
 namespace {
 
-/// A number with its least significant byte first; the bytes must be there.
+/// Integer of `count` bytes in little-endian order; the bytes must exist.
 std::uint32_t little(std::span<const std::uint8_t> bytes, std::size_t at, std::size_t count) {
     std::uint32_t value = 0;
     for (std::size_t i = count; i-- > 0;)
@@ -24,7 +24,7 @@ constexpr const char* kCut = "it is cut short";
 constexpr const char* kMalformed = "its header is malformed";
 constexpr std::int64_t kLongestSide = std::int64_t{1} << 24;
 
-/// Whether the packets of a TGA file hold so many pixels.
+/// Whether the packets of a TGA file contain so many pixels.
 bool holds_pixels(std::span<const std::uint8_t> packets, std::uint64_t pixels, std::size_t pixel_bytes) {
     std::size_t at = 0;
     while (pixels > 0) {
@@ -59,7 +59,7 @@ std::optional<ImageSize> check_bmp(std::span<const std::uint8_t> bytes, std::str
     if (bytes.size() < 14 + std::size_t{header} || begin < 14 + header || begin > bytes.size())
         return refuse(why, kCut);
     const std::int64_t width = is_old ? little(bytes, 18, 2) : static_cast<std::int32_t>(little(bytes, 18, 4));
-    // A negative height: rows from the top.
+    // a negative height means rows from the top
     const std::int64_t signed_height = is_old ? little(bytes, 20, 2) : static_cast<std::int32_t>(little(bytes, 22, 4));
     const std::int64_t height = std::abs(signed_height);
     if (width < 1 || height < 1 || width > kLongestSide || height > kLongestSide) return refuse(why, kMalformed);

@@ -11,10 +11,10 @@
 namespace treefarm {
 namespace {
 
-/// The channels of a layer by what they are.
+/// Channels of a layer by component.
 using Layer = std::map<char, std::string>;
 
-/// 'R' for "R", "layer.r" and "layer.red", and so on; 0 for other channels.
+/// Component of a channel: 'R' for "R", "layer.r" and "layer.red", and so on; 0 for other channels.
 char meaning_of(std::string_view component) {
     constexpr std::array<std::pair<std::string_view, char>, 8> kNames = {
         {{"r", 'R'}, {"g", 'G'}, {"b", 'B'}, {"a", 'A'}, {"y", 'Y'}, {"red", 'R'}, {"green", 'G'}, {"blue", 'B'}}};

@@ -7,9 +7,8 @@
 
 namespace treefarm {
 
-/// The channels of a file that are its picture: R, G, B, or Y, or else the only ones of that name in any layer
-/// ("diffuse.R"); after them the layer's A, if there is one. Throws InputError that names the file: there are none, or
-/// several layers have them.
+/// Colour channels of a file: R, G, B, or Y, or else the only ones of these names in any layer ("diffuse.R"); then the
+/// layer's A, if it has one. Throws InputError with the file's name if there are none, or if several layers have them.
 std::vector<std::string> choose_color_channels(const std::filesystem::path& path,
                                                const std::vector<std::string>& names);
 

@@ -26,7 +26,7 @@ bool begins_with(std::span<const std::uint8_t> bytes, const std::array<std::uint
     return bytes.size() >= kSize && std::equal(magic.begin(), magic.end(), bytes.begin());
 }
 
-/// Format of a file whose pixels must all be there; nothing for other formats.
+/// Format whose pixel data have a known length; empty for other formats.
 std::optional<ImageFormat> plain_format(std::span<const std::uint8_t> bytes, const std::filesystem::path& path) {
     if (is_netpbm(bytes)) return ImageFormat::netpbm;
     if (is_bmp(bytes)) return ImageFormat::bmp;
@@ -38,7 +38,7 @@ std::optional<ImageFormat> plain_format(std::span<const std::uint8_t> bytes, con
     return std::nullopt;
 }
 
-/// Size of a file whose pixels must all be there.
+/// Checks that all pixel data of such a format are present, and sets the size.
 void read_plain_header(EncodedImage& image, std::string& why) {
     if (image.format == ImageFormat::netpbm) {
         if (const auto header = read_netpbm_header(image.bytes, why)) {
@@ -52,7 +52,7 @@ void read_plain_header(EncodedImage& image, std::string& why) {
     }
 }
 
-/// Format and claimed size from the header.
+/// Sets format and claimed size from the header.
 void read_header(EncodedImage& image, const std::filesystem::path& path, std::string& why) {
     if (const auto format = plain_format(image.bytes, path)) {
         image.format = *format;
@@ -79,15 +79,15 @@ void read_header(EncodedImage& image, const std::filesystem::path& path, std::st
     }
 }
 
-/// An upper bound of the pixels that one byte of a file can stand for.
+/// Upper bound of the number of pixels that a byte of the file encodes.
 std::size_t most_pixels_per_byte(ImageFormat format) {
     switch (format) {
         case ImageFormat::png:
             return 1032 *
-                   8;  // deflate: a match of 258 bytes takes two bits or more; a byte holds eight pixels of a bit
+                   8;  // deflate: a match of 258 bytes takes at least two bits; a byte holds eight pixels of one bit
         case ImageFormat::jpeg:
-            return 1024;  // a block takes a bit or more, and its 8 x 8 values stand for 128 pixels at most on average
-                          // over the planes
+            return 1024;  // a block of 8 x 8 values takes at least one bit, and stands for at most 128 pixels on
+                          // average over the planes
         case ImageFormat::tga:
             return 128;  // a packet of two bytes
         case ImageFormat::bmp:
@@ -99,7 +99,7 @@ std::size_t most_pixels_per_byte(ImageFormat format) {
     return 16;  // a run of at most 127 takes two bytes in each of four planes
 }
 
-/// A chunk of a PNG file reaches beyond the file's end or the last one is missing.
+/// Whether a chunk of a PNG file extends beyond the file's end, or the last chunk is missing.
 bool is_cut_png(std::span<const std::uint8_t> bytes) {
     constexpr std::array<std::uint8_t, 4> kEnd = {'I', 'E', 'N', 'D'};
     std::size_t at = 8;
@@ -127,7 +127,7 @@ EncodedImage read_encoded_image(const std::filesystem::path& path, const std::st
     std::string why;
     const std::string again = "it is damaged or cut short; save it again";
     read_header(image, path, why);
-    const bool is_known = image.format != ImageFormat::png;  // of the others, PNG stands for what is none of them
+    const bool is_known = image.format != ImageFormat::png;  // PNG also stands for unknown formats
     if (!why.empty()) refuse(is_known ? "cannot be decoded (" + why + ")" : why, is_known ? again : cure);
     const std::string claim =
         "claims " + std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels";

@@ -16,7 +16,7 @@ std::string_view as_text(std::span<const std::uint8_t> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// "-Y 480 +X 640".
+/// Parses the resolution line, "-Y 480 +X 640".
 bool parse_size(std::string_view line, HdrHeader& header) {
     const auto take = [&](std::string_view word, int& number) {
         if (!line.starts_with(word)) return false;
@@ -33,7 +33,7 @@ class HdrDecoder {
   public:
     HdrDecoder(std::span<const std::uint8_t> data, std::size_t width) : data_(data), line_(width * 4) {}
 
-    /// The next line, four bytes per pixel; nullptr, and `why`, if it is malformed.
+    /// The next scan line, four bytes per pixel; nullptr, with the reason in `why`, if it is malformed.
     const std::vector<std::uint8_t>* next(std::string& why) {
         const bool done = begins_coded() ? decode_line(why) : copy_line(why);
         return done ? &line_ : nullptr;
@@ -42,7 +42,7 @@ class HdrDecoder {
   private:
     std::size_t width() const { return line_.size() / 4; }
 
-    /// A coded line begins with 2, 2 and its length, which no pixel does.
+    /// Whether the line is run-length encoded: it then begins with 2, 2 and its length, which no pixel does.
     bool begins_coded() const {
         const std::size_t w = width();
         return w >= 8 && w <= kLongestCodedLine && data_.size() >= 4 && data_[0] == 2 && data_[1] == 2 &&
@@ -50,7 +50,7 @@ class HdrDecoder {
     }
 
     bool copy_line(std::string& why) {
-        // A mantissa of a pixel that is not black is above 127: 1, 1, 1 says how often the last pixel is repeated.
+        // A mantissa of a pixel that is not black is above 127: 1, 1, 1 stands for repetitions of the previous pixel.
         for (std::size_t at = 0; at < line_.size() && at + 3 < data_.size(); at += 4)
             if (data_[at] == 1 && data_[at + 1] == 1 && data_[at + 2] == 1) return refuse(why, kOldHdrRuns);
         if (data_.size() < line_.size()) return refuse(why, "it is cut short");

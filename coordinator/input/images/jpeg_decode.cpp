@@ -61,7 +61,7 @@ class JpegDecoder {
         jpeg_read_header(&info_, TRUE);
     }
 
-    /// What is left of white by cyan, magenta, yellow and black. Adobe's programs store how little ink there is.
+    /// Converts cyan, magenta, yellow and black to the remaining white. Adobe's programs store inverted inks.
     static void mix_inks(Pixels& pixels, bool inverted) {
         std::uint8_t* to = pixels.bytes.data();
         for (std::size_t i = 0; i + 3 < pixels.bytes.size(); i += 4) {
@@ -85,13 +85,13 @@ class JpegDecoder {
         self->why_ = message;
         std::longjmp(self->jump_, 1);
     }
-    /// A warning: libjpeg goes on with grey or garbage, and we do not.
+    /// Turns a warning into an error: libjpeg would continue with grey or garbage.
     static void hear(j_common_ptr info, int level) {
         const int what = info->err->msg_code;
         const bool harmless = what == JWRN_EXTRANEOUS_DATA || what == JWRN_TOO_MUCH_DATA || what == JWRN_ADOBE_XFORM;
         if (level < 0 && !harmless) fail(info);
     }
-    /// A few bytes may ask for one more scan over all pixels.
+    /// Limits the number of scans, since a few bytes can ask for one more scan over all pixels.
     static void watch(j_common_ptr info) {
         constexpr int kMostScans = 500;
         auto* self = static_cast<JpegDecoder*>(info->client_data);

@@ -9,11 +9,11 @@
 
 namespace treefarm {
 
-/// Size that a JPEG file claims; nothing, and `why`, if its header is damaged.
+/// Size that a JPEG file claims; empty, with the reason in `why`, if its header is damaged.
 std::optional<ImageSize> jpeg_size(std::span<const std::uint8_t> bytes, std::string& why);
 
-/// A JPEG file's pixels, by libjpeg-turbo: grey or RGB, inks as RGB without a profile. Nothing, and `why`, if it is
-/// damaged or cut short.
+/// Pixels of a JPEG file, by libjpeg-turbo: grey or RGB; CMYK becomes RGB without a profile. Empty, with the reason in
+/// `why`, if it is damaged or cut short.
 std::optional<Pixels> decode_jpeg(std::span<const std::uint8_t> bytes, std::string& why);
 
 }  // namespace treefarm

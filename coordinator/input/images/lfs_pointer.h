@@ -5,8 +5,8 @@
 
 namespace treefarm {
 
-/// Whether a file that begins so is a pointer of Git LFS, which stands in a repository in place of a large file
-/// (git-lfs/docs/spec.md).
+/// Whether a file with this beginning is a Git LFS pointer: the small text that a repository holds instead of a large
+/// file (git-lfs/docs/spec.md).
 inline bool is_lfs_pointer(std::string_view begin) {
     return begin.starts_with("version https://git-lfs.github.com/spec/");
 }

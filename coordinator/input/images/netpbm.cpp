@@ -14,7 +14,7 @@ bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
 
-/// The words of a header, with comments between them.
+/// Tokenizer of a header, which skips comments.
 class Words {
   public:
     explicit Words(std::string_view text) : text_(text) {}
@@ -28,7 +28,7 @@ class Words {
         return text_.substr(begin, at_ - begin);
     }
 
-    /// A word that is a number; false if it is none.
+    /// The next word as a number; false if it is none.
     template <class Number>
     bool next(Number& number) {
         const std::string_view word = next();

@@ -10,28 +10,28 @@
 
 namespace treefarm {
 
-/// Binary PGM and PPM (P5, P6: integers of 8 or 16 bits) and PFM (Pf, PF: floats). Their pixels follow the header as
-/// they are.
+/// Header of a binary PGM or PPM (P5, P6: integers of 8 or 16 bits) or PFM (Pf, PF: floats). Uncompressed pixels follow
+/// it.
 struct NetpbmHeader {
     int width = 0, height = 0;   ///< pixels, both above 0
     int channels = 0;            ///< 1 or 3
     bool floats = false;         ///< PFM
-    int max_value = 0;           ///< PGM, PPM: what stands for 1; above 255 each value has two bytes
-    double scale = 0.0;          ///< PFM: negative for the least significant byte first; its size is a factor
+    int max_value = 0;           ///< PGM, PPM: value that stands for 1; above 255, values have two bytes
+    double scale = 0.0;          ///< PFM: negative for little-endian order; its magnitude is a factor
     std::size_t data_begin = 0;  ///< offset of the first pixel
 
-    /// Bytes that the pixels take.
+    /// Bytes of the pixel data.
     std::uint64_t data_size() const;
 };
 
-/// The bytes begin like such a file, or like one in plain text.
+/// Whether the bytes begin like such a file, binary or in plain text.
 bool is_netpbm(std::span<const std::uint8_t> bytes);
 
-/// A file's header. Nothing, and `why`, if it is malformed, or the file in plain text or shorter than the header says.
+/// Header of a file. Empty, with the reason in `why`, if it is malformed, in plain text, or longer than the file.
 std::optional<NetpbmHeader> read_netpbm_header(std::span<const std::uint8_t> bytes, std::string& why);
 
-/// The pixels, rows from the top, channels interleaved: bytes of files with 8 bits, else floats (integers from 0 to 1).
-/// The file must be as long as the header says.
+/// The pixels, rows from the top, channels interleaved: bytes of files with 8 bits, otherwise floats (integers scaled
+/// to 0 to 1). The file must be as long as its header says.
 std::vector<std::uint8_t> netpbm_bytes(std::span<const std::uint8_t> bytes, const NetpbmHeader& header);
 std::vector<float> netpbm_floats(std::span<const std::uint8_t> bytes, const NetpbmHeader& header);
 

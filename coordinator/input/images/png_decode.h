@@ -9,11 +9,11 @@
 
 namespace treefarm {
 
-/// Size that a PNG file claims in its first chunk; nothing for other files.
+/// Size that a PNG file claims in its first chunk; empty for other files.
 std::optional<ImageSize> png_size(std::span<const std::uint8_t> bytes);
 
-/// A PNG file's pixels, by libpng: palettes looked up, transparent colours as alpha, gamma and profiles left alone.
-/// Nothing, and `why`, if it is damaged.
+/// Pixels of a PNG file, by libpng: palettes are looked up, transparent colours become alpha, gamma and profiles are
+/// not applied. Empty, with the reason in `why`, if it is damaged.
 std::optional<Pixels> decode_png(std::span<const std::uint8_t> bytes, std::string& why);
 
 }  // namespace treefarm

@@ -4,13 +4,13 @@
 #include <cstdlib>
 #include <memory>
 
-// The implementations live in this file alone and are held to their own standard of warnings, not ours.
+// The implementations are compiled in this file only, without the project's warnings.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-// Zeroed memory: what a damaged file leaves out (tables, parts of the image) is the same on every run.
+// Zeroed memory: parts that a damaged file leaves out (tables, pixels) are equal in every run.
 #define STBI_MALLOC(size) std::calloc(1, size)
 #define STBI_REALLOC(memory, size) std::realloc(memory, size)
 #define STBI_FREE(memory) std::free(memory)

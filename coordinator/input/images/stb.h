@@ -7,10 +7,10 @@
 
 #include "coordinator/input/images/pixels.h"
 
-/// The only includer of the stb libraries, used within this module.
+/// Interface to the stb libraries, for use within this module only.
 namespace treefarm::stb {
 
-/// Pixels of a BMP or TGA file. Nothing, and `why`, if it cannot be decoded.
+/// Pixels of a BMP or TGA file. Empty, with the reason in `why`, if it cannot be decoded.
 std::optional<Pixels> decode(std::span<const std::uint8_t> bytes, std::string& why);
 
 }  // namespace treefarm::stb

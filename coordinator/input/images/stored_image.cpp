@@ -27,7 +27,7 @@ std::uint32_t big_endian(const std::uint8_t* p) {
     return std::uint32_t{p[0]} << 24 | std::uint32_t{p[1]} << 16 | std::uint32_t{p[2]} << 8 | std::uint32_t{p[3]};
 }
 
-/// The exponent of the chunk gAMA, or 0 where there is none or the chunk sRGB overrides it, as in Mitsuba 0.6.
+/// Exponent of the chunk gAMA; 0 if there is none, or if the chunk sRGB overrides it, as in Mitsuba 0.6.
 double png_gamma(std::span<const std::uint8_t> bytes) {
     double gamma = 0.0;
     std::size_t at = 8;

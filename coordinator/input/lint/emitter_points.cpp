@@ -34,13 +34,12 @@ V3d direction_of_cone(const LightCone& cone, double u, double v) {
 
 namespace {
 
-constexpr std::size_t kMostEmitters = 16;          ///< that are looked at: a scene with more is hardly black by mistake
-constexpr std::size_t kMostTriangles = 5'000'000;  ///< that rays are held against
+constexpr std::size_t kMostEmitters = 16;  ///< limit of examined emitters: a scene with more is hardly black by mistake
+constexpr std::size_t kMostTriangles = 5'000'000;  ///< limit of triangles that rays are tested against
 
-// Number i of a surface's points, drawn by (u, v) of the unit square: an overload for each kind of shape, or it does
-// not compile.
+// Point number i of a surface, from (u, v) in the unit square: an overload for each kind of shape.
 
-/// A point of some triangle.
+/// A point on one of the triangles.
 std::optional<SurfacePoint> point_of(const Mesh& mesh, int i, double u, double v) {
     if (mesh.triangle_count() == 0) return std::nullopt;
     const std::uint32_t* corner = &mesh.indices[3 * (static_cast<std::size_t>(i) * 7919 % mesh.triangle_count())];

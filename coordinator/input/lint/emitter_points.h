@@ -9,27 +9,27 @@
 
 namespace treefarm::linting {
 
-// Where a few hundred rays that look at a scene start and go.
+// Origins and directions of a few hundred rays that examine a scene.
 
-/// A low-discrepancy point of the unit square (Roberts 2018), the same every time.
+/// Point i of a low-discrepancy sequence in the unit square (Roberts 2018); deterministic.
 std::array<double, 2> point_of_square(int i);
 
-/// A direction of all.
+/// Uniform direction of the sphere.
 Imath::V3d direction_of_sphere(double u, double v);
 
-/// A direction about the axis, cosine-distributed.
+/// Direction around the axis, cosine-distributed.
 Imath::V3d direction_of_hemisphere(const Imath::V3d& axis, double u, double v);
 
-/// A direction within a cone.
+/// Uniform direction within a cone.
 Imath::V3d direction_of_cone(const LightCone& cone, double u, double v);
 
 /// A point of a surface with its normal.
 using SurfacePoint = std::pair<Imath::V3d, Imath::V3d>;
 
-/// Number i of a shape's points, drawn by (u, v) of the unit square; nothing where it has none of its own.
+/// Point number i of a shape, from (u, v) in the unit square; empty if the shape has no surface of its own.
 std::optional<SurfacePoint> point_on(const Shape& shape, int i, double u, double v);
 
-/// Whether everything that rays need exists and is finite, and there is not too much of it.
+/// Whether all data that rays need exist and are finite, and are not too many.
 bool can_be_looked_at(const Scene& scene);
 
 }  // namespace treefarm::linting

@@ -8,8 +8,8 @@
 namespace treefarm {
 namespace {
 
-// From where on next event hardly finds the lamps: chosen so that scenes of ours get what was ahead of the other, water
-// apart (bench/log/bidirectional.md, "when should light subpaths be given up").
+// Thresholds above which next event hardly finds the lamps, chosen such that the project's scenes get the estimator
+// that was better, except for water (bench/log/bidirectional.md, "when should light subpaths be given up").
 constexpr double kMostlyHidden = 0.5, kOftenBehindGlass = 0.25, kMostlyFromInfinity = 0.5;
 
 constexpr const char* kPrice = "; a sample takes two to six times that of path";

@@ -7,8 +7,8 @@
 
 namespace treefarm {
 
-/// Which estimator suits a scene, why, and what it costs: a line for people. Says nothing of estimators that show
-/// something else than light. A recommendation: what pays is known once samples were drawn. Pure.
+/// Line of text: the estimator that suits a scene, the reason, and the cost. Empty for estimators that show something
+/// other than light. Only a recommendation, since the gain is known only after sampling. Pure.
 std::string estimator_advice(const Scene& scene, const Resolved& job);
 
 }  // namespace treefarm

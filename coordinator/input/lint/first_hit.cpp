@@ -13,7 +13,7 @@ using Imath::V3d;
 struct Ray {
     V3d origin, direction;  ///< not of length 1 within instances
     double nearest = std::numeric_limits<double>::infinity();
-    bool behind = false;  ///< of what is nearest
+    bool behind = false;  ///< nearest hit so far is from behind
 
     bool take_if_nearer(double t, const V3d& normal) {
         if (!(t > 0 && t < nearest)) return false;
@@ -57,7 +57,7 @@ bool intersect(Ray& ray, const Mesh& mesh) {
     return is_hit;
 }
 
-/// Roots of a t^2 + 2 b t + c.
+/// Intersects with the roots of a t^2 + 2 b t + c.
 bool intersect_round(Ray& ray, double a, double b, double c, auto normal_at) {
     const double discriminant = b * b - a * c;
     if (!(discriminant >= 0) || a == 0) return false;
@@ -130,7 +130,7 @@ std::optional<FirstHit> FirstHitSearch::find(const V3d& origin, const V3d& direc
             if (shape.group == kNone) try_shape(ray, i);
             continue;
         }
-        Ray moved = ray;  // the same distances: its direction shrinks or grows with the space
+        Ray moved = ray;  // distances stay equal: the direction scales with the space
         from_world_[i].multVecMatrix(origin, moved.origin);
         from_world_[i].multDirMatrix(direction, moved.direction);
         for (std::size_t part = 0; part < scene_.shapes.size(); ++part)

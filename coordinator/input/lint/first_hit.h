@@ -8,20 +8,20 @@
 
 namespace treefarm {
 
-/// Where a ray meets a scene first.
+/// First hit of a ray in a scene.
 struct FirstHit {
     double distance = 0;
-    std::size_t shape = 0;  ///< that was hit; of an instance, the part of its group
-    bool behind = false;    ///< from the side against the normal
+    std::size_t shape = 0;  ///< index of the shape; for an instance, of the member of its group
+    bool behind = false;    ///< hit on the side opposite to the normal
 };
 
-/// Rays against shapes one by one, without a hierarchy: for a few hundred rays that tell what lies where. Masks are not
-/// looked up. The scene's indices exist, and it outlives this.
+/// Intersects rays with shapes one by one, without a hierarchy: for a few hundred rays. Masks are ignored. The scene's
+/// indices must exist, and it must outlive this.
 class FirstHitSearch {
   public:
     explicit FirstHitSearch(const Scene& scene);
 
-    /// `direction` is of length 1.
+    /// `direction`: of length 1.
     std::optional<FirstHit> find(const Imath::V3d& origin, const Imath::V3d& direction) const;
 
   private:

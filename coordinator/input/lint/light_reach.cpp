@@ -17,13 +17,13 @@ namespace {
 using Imath::V3d;
 using linting::point_of_square;
 
-constexpr int kColumns = 12, kRows = 8;  ///< of the camera's rays
-constexpr int kPoints = 2;               ///< of an emitter, for each of them
-constexpr int kMostPanes = 8;            ///< of glass that the camera looks through
-constexpr double kNearly = 1 - 1e-3;     ///< of the way to an emitter: what is met there is the emitter
-constexpr double kStep = 1e-5;           ///< off a surface, over the scene's size
+constexpr int kColumns = 12, kRows = 8;  ///< grid of the camera's rays
+constexpr int kPoints = 2;               ///< points of each emitter per camera ray
+constexpr int kMostPanes = 8;            ///< panes of glass that a camera ray passes
+constexpr double kNearly = 1 - 1e-3;     ///< part of the way to an emitter: a hit beyond it is the emitter
+constexpr double kStep = 1e-5;           ///< offset from a surface, over the scene's size
 
-/// The ray of the camera through a point of the film, in [0, 1]^2 of its window.
+/// Camera ray through a point of the film, in [0, 1]^2 of its window.
 std::pair<V3d, V3d> camera_ray(const Camera& camera, const Film& film, double u, double v) {
     const double x = (film.crop.x + u * film.width) / film.whole_width();
     const double y = (film.crop.y + v * film.height) / film.whole_height();
@@ -66,7 +66,7 @@ class Looking {
         return material != kNone && material_traits(scene_, material).lobes.delta_transmission;
     }
 
-    /// A point just before what is seen, straight through smooth glass.
+    /// Point just before the first surface on a ray that passes smooth glass straight.
     std::optional<V3d> seen_from(V3d origin, const V3d& direction) const {
         for (int panes = 0; panes < kMostPanes; ++panes) {
             const auto hit = search_.find(origin, direction);
@@ -77,7 +77,7 @@ class Looking {
         return std::nullopt;
     }
 
-    /// Light that comes to a point.
+    /// Adds the light that arrives at a point.
     void from(const V3d& p, int ray) {
         const LightReach before = std::exchange(reach_, {});
         const LitScene lit{static_cast<float>(0.25 * size_ * size_), scene_.images};
@@ -93,7 +93,7 @@ class Looking {
             else
                 reach_.infinity += scale * M_PI;
         }
-        // Each point counts alike: one beside a lamp would outshine all others.
+        // Points have equal weight: otherwise one beside a lamp would dominate.
         const double all = reach_.infinity + reach_.free + reach_.glass + reach_.blocked, scale = all > 0 ? 1 / all : 0;
         reach_.infinity = before.infinity + reach_.infinity * scale;
         reach_.free = before.free + reach_.free * scale;
@@ -112,7 +112,7 @@ class Looking {
             if (cosine > 0)
                 add(p, point->first, light);
             else if (is_flat(lamp))
-                reach_.blocked += light;  // of what is closed another point faces this way
+                reach_.blocked += light;  // another point of a closed surface faces this way
         }
     }
 

@@ -5,17 +5,17 @@
 
 namespace treefarm {
 
-/// How the light of a scene's emitters comes to what its camera sees, as far as a few hundred rays tell: shares of what
-/// it would be if nothing lay between.
+/// Shares of the light of a scene's emitters by what is between them and the surfaces that the camera sees, estimated
+/// with a few hundred rays; relative to the light without any obstacles.
 struct LightReach {
-    bool known = false;   ///< false: nothing is seen, nothing shines, or the scene is too large to be looked at
-    double infinity = 0;  ///< from emitters that surround the scene, or shine on it from one side
-    double free = 0;      ///< of the others: nothing lies between
-    double glass = 0;     ///< of the others: smooth glass does first
-    double blocked = 0;   ///< of the others: anything else does, or the emitter faces away
+    bool known = false;   ///< false: nothing is visible, nothing emits, or the scene is too large to examine
+    double infinity = 0;  ///< light from emitters that surround the scene, or light it from one side
+    double free = 0;      ///< light from other emitters, unobstructed
+    double glass = 0;     ///< light from other emitters, through smooth glass first
+    double blocked = 0;   ///< light from other emitters, behind another surface or facing away
 };
 
-/// Pure. Masks are not looked up.
+/// Shares of a scene's light. Pure. Masks are ignored.
 LightReach light_reach(const Scene& scene);
 
 }  // namespace treefarm

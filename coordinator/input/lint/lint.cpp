@@ -22,7 +22,7 @@ namespace {
 
 using enum Finding::Severity;
 
-/// The box of what is finite.
+/// Box of the finite coordinates.
 Box3 finite_bounds(const Scene& scene) {
     Box3 box;
     for (const Shape& shape : scene.shapes)
@@ -35,12 +35,13 @@ Box3 finite_bounds(const Scene& scene) {
     return box;
 }
 
-/// So many of its own sizes from the origin a shape loses 6 of the 24 bits of its floats: as load_scene() has it.
+/// Distance from the origin, in sizes of a shape, at which its floats lose 6 of their 24 bits; equals that of
+/// load_scene().
 constexpr double kFarSizes = 64.0;
 
-/// A shape that the camera stands at, however far from the origin it is, counted from where a render moves the scene:
-/// the positions on it are blurred, and rays that start in a corner may do so behind the other wall. Per size
-/// of distance about 2^-25 of the diffuse rays leave (bench/log/scenes.md, "do closed rooms leak").
+/// Finding about a shape that contains the camera and is far from the origin, relative to the point to which a render
+/// moves the scene: positions on it are imprecise, and rays that start in a corner may start behind the other wall. Per
+/// size of distance about 2^-25 of the diffuse rays leak (bench/log/scenes.md, "do closed rooms leak").
 void lint_camera_surroundings(const Scene& scene, const Imath::V3d& origin, std::vector<Finding>& findings) {
     const Imath::V3d camera(scene.camera.origin);
     const Shape* worst = nullptr;
@@ -71,7 +72,8 @@ void lint_camera_surroundings(const Scene& scene, const Imath::V3d& origin, std:
 
 }  // namespace
 
-/// Floats have 24 bits: what lies so many sizes away keeps that many digits fewer.
+/// Findings about missing shapes or emitters, and about the size and the position of the scene: floats have 24 bits, of
+/// which a scene far from the origin uses fewer.
 void lint_scale(const Scene& scene, std::vector<Finding>& findings) {
     const auto add = [&](Finding::Severity severity, const char* kind, const std::string& what,
                          const std::string& cure) {

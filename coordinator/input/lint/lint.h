@@ -9,27 +9,27 @@
 
 namespace treefarm {
 
-/// Looks at a scene as its reader left it, before validate_scene() repairs or refuses it. Pure; any scene whose indices
-/// exist is accepted. Findings come by shape, material, emitter, and what concerns the whole.
+/// Findings about a scene as its reader left it, before validate_scene() repairs or refuses it. Pure; the scene's
+/// indices must exist. Ordered by shape, material and emitter, then those about the whole scene.
 std::vector<Finding> lint(const Scene& scene);
 
-/// Why an image of the scene may be black, as far as a few hundred rays tell: the camera sees backs of one-sided
-/// surfaces only, or nothing, or is in a closed shape without light; an emitter's light ends at such backs, at a
-/// surface right before it, or at smooth glass. Pure. lint() says these, too.
+/// Reasons why an image of the scene may be black, according to a few hundred rays: the camera sees only backs of
+/// one-sided surfaces, or nothing, or is in a closed shape without light; an emitter's light ends at such backs, at a
+/// surface directly in front of it, or at smooth glass. Pure. Included in lint().
 std::vector<Finding> dark_causes(const Scene& scene);
 
 namespace linting {
 
-/// The parts of lint().
+/// Parts of lint().
 void lint_shapes(const Scene& scene, std::vector<Finding>& findings);
 void lint_materials(const Scene& scene, std::vector<Finding>& findings);
 void lint_emitters(const Scene& scene, std::vector<Finding>& findings);
 void lint_darkness(const Scene& scene, std::vector<Finding>& findings);
 void lint_scale(const Scene& scene, std::vector<Finding>& findings);
 
-/// "the shape", or with its name.
+/// Text "the shape", or with its name.
 std::string named(const std::string& kind, const std::string& name);
-/// A number as people write it.
+/// Number as short text.
 std::string short_number(double value);
 
 }  // namespace linting

@@ -15,18 +15,18 @@ using Imath::V3d;
 
 constexpr int kColumns = 12, kRows = 8;  ///< of the camera's rays
 constexpr int kLightRays = 32;           ///< of an emitter
-/// Distance from an emitter, as a share of the scene's size, below which a thing covers it.
+/// Distance from an emitter, relative to the scene's size, below which a surface covers it.
 constexpr double kClose = 1e-3;
 
-/// Counts of what some rays met.
+/// Counts of hits of some rays.
 struct HitCounts {
     int rays = 0, hits = 0;
     int behind = 0;  ///< backs that reflect nothing
     int glass = 0;   ///< smooth, transmitting surfaces
     int close = 0;
-    int inside = 0;  ///< backs of whatever kind
+    int inside = 0;  ///< backs of any kind
     std::size_t shape = 0;
-    bool one_shape = true;  ///< `shape` is all that was hit
+    bool one_shape = true;  ///< whether all hits are of `shape`
 
     bool all(int count) const { return hits > 0 && count == hits; }
 };
@@ -111,7 +111,7 @@ class Darkness {
         return counts;
     }
 
-    /// What rays from an emitter meet; nothing for emitters that surround the scene.
+    /// Hits of rays from an emitter; none for emitters that surround the scene.
     HitCounts from_emitter(const Emitter& emitter) const {
         HitCounts counts;
         const std::int32_t shape = shape_of(emitter);

@@ -12,19 +12,19 @@ namespace {
 using enum Finding::Severity;
 using Imath::V3d;
 
-/// A plane that an emitter shines to one side of.
+/// A plane to one side of which an emitter emits.
 struct Front {
     V3d point, normal;
 };
 
-/// Whether a point lies before the plane, by more than rounding.
+/// Whether a point is before the plane, by more than rounding.
 bool before(const Front& front, const V3d& p) {
     const V3d d = p - front.point;
     return d.dot(front.normal) > 1e-6 * (d.length() + 1e-6 * p.length());
 }
 
-/// The fronts of an emitter that is flat, none of what faces everywhere, or has no area: an overload for each kind of
-/// shape, or it does not compile.
+/// Front planes of a flat emitter; empty for emitters that face all directions, or have no area. Each kind of shape
+/// needs an overload.
 std::vector<Front> fronts_of(const Mesh& mesh) {
     std::vector<Front> fronts;
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
@@ -57,15 +57,15 @@ std::vector<Front> fronts_of(const Instance&) {
     return {};
 }
 
-/// Whether anything of the scene, or the camera, lies before one of the planes: the corners of boxes tell.
+/// Whether a part of the scene, or the camera, is before one of the planes, judged by the corners of boxes.
 bool reaches_anything(const Scene& scene, const Shape& own, const std::vector<Front>& fronts) {
     const auto lit = [&](const V3d& p) {
         return std::any_of(fronts.begin(), fronts.end(), [&](const Front& front) { return before(front, p); });
     };
     if (lit(V3d(scene.camera.origin))) return true;
     for (const Shape& shape : scene.shapes) {
-        if (std::holds_alternative<Instance>(shape.geometry)) return true;  // not looked into
-        // Of the emitter itself every vertex: one that is not convex lights itself.
+        if (std::holds_alternative<Instance>(shape.geometry)) return true;  // not examined
+        // Every vertex of the emitter itself: one that is not convex lights itself.
         if (const auto* mesh = std::get_if<Mesh>(&shape.geometry); mesh && &shape == &own) {
             if (std::any_of(mesh->positions.begin(), mesh->positions.end(), [&](const Vec3& p) { return lit(V3d(p)); }))
                 return true;
@@ -81,7 +81,8 @@ bool reaches_anything(const Scene& scene, const Shape& own, const std::vector<Fr
     return false;
 }
 
-/// Whether light within a cone may meet something: spheres around the boxes of meshes tell, all else counts as met.
+/// Whether light within a cone may hit something, judged by spheres around the boxes of meshes; other shapes count as
+/// hit.
 bool may_hit_anything(const Scene& scene, const LightCone& cone) {
     if (!(cone.half_angle < kPi)) return true;
     return std::any_of(scene.shapes.begin(), scene.shapes.end(), [&](const Shape& shape) {
@@ -130,7 +131,7 @@ class EmitterLint : public IgnoreFields {
         if (!(area_of(shape.geometry) > 0))
             return add(error, "zero-area emitter", named("shape", shape.name) + " emits, but has no area",
                        "repair or remove it");
-        // Large meshes face everywhere; flat ones are what is put the wrong way round.
+        // Large meshes face all directions; only flat ones are likely to be reversed.
         if (!fronts.empty() && fronts.size() <= 1000 && !reaches_anything(scene_, shape, fronts))
             add(warning, "unreachable emitter",
                 named("shape", shape.name) + " emits to a side on which there is nothing, not even the camera",

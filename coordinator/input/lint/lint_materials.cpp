@@ -8,7 +8,7 @@ namespace {
 
 using enum Finding::Severity;
 
-/// Ranges of a scene's images and mesh attributes, of what is missing 0 to 1.
+/// Ranges of a scene's images and mesh attributes; 0 to 1 for missing ones.
 struct Ranges {
     const Scene& scene;
 
@@ -49,7 +49,7 @@ class MaterialLint {
         const bool finite = is_finite(input.value);
         factor(least, finite ? most : std::numeric_limits<float>::infinity(), input.varies(), input.texture, what);
     }
-    /// A number counts as 1 wherever its texture takes it above.
+    /// A number above 1 from its texture counts as 1.
     void fraction(const char* what, const FloatInput& input) {
         if (!input.varies()) factor(input.value, input.value, false, input.texture, what);
     }
@@ -64,7 +64,7 @@ class MaterialLint {
         for (int i = 0; i < 3; ++i) {
             const FloatInput channel(input.value[i], input.texture);
             if (!(reached_by(channel) >= least && reached_by(channel) <= most))
-                return number(what, channel, least, most);  // said once
+                return number(what, channel, least, most);  // reported once
         }
     }
     void together(const ColorInput& a, const ColorInput& b) {
@@ -104,7 +104,7 @@ class MaterialLint {
                 add(error, "extreme alpha", value, "give 0.0001 to 1");
             else if (alpha->value < Roughness::kLeastAlpha)
                 add(warning, "extreme alpha", value, "it is raised to 0.0001; take the smooth material");
-            // To the least one the reader raises, and says so.
+            // The reader raises smaller values to the minimum, and warns.
             else if (alpha->value < 1e-3f && alpha->value != Roughness::kLeastAlpha)
                 add(note, "extreme alpha", value, "the smooth material looks the same and has less noise");
             else if (alpha->value > 1.0f)
@@ -125,7 +125,7 @@ class MaterialLint {
             {severity, kind, material_.where, named("material", material_.name) + " has " + what, cure});
     }
 
-    /// A constant above 1 is refused; one that a texture takes there is scaled down, or kept.
+    /// Finding about a factor above 1: a constant is refused; that of a texture is scaled down, or kept.
     void factor(float least, float most, bool varies, std::int32_t texture, const char* what) {
         if (!std::isfinite(most) || least < 0.0f)
             return add(error, "numbers", std::string("a ") + what + " that is negative or not finite", "give 0 to 1");

@@ -11,14 +11,14 @@ namespace {
 
 using enum Finding::Severity;
 
-/// A mesh of more triangles without normals is probably meant to be smooth.
+/// Number of triangles above which a mesh without normals is probably meant to be smooth.
 constexpr std::size_t kFewTriangles = 64;
 
 std::string count_of(std::size_t count, const char* one, const char* many) {
     return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-/// A triangle by its corners, whatever the order: equal ones coincide.
+/// Corners of a triangle in sorted order: equal for coincident triangles.
 using Corners = std::array<std::array<std::uint32_t, 3>, 3>;
 
 struct HashCorners {
@@ -35,7 +35,7 @@ Corners corners_of(const Mesh& mesh, std::size_t triangle) {
     Corners corners;
     for (std::size_t k = 0; k < 3; ++k) {
         const Vec3& p = mesh.positions[mesh.indices[3 * triangle + k]];
-        // + 0: -0 and 0 are the same place.
+        // + 0: -0 and 0 are the same coordinate.
         corners[k] = {std::bit_cast<std::uint32_t>(p.x + 0.0f), std::bit_cast<std::uint32_t>(p.y + 0.0f),
                       std::bit_cast<std::uint32_t>(p.z + 0.0f)};
     }
@@ -48,7 +48,7 @@ class MeshLint {
     MeshLint(const Shape& shape, const Mesh& mesh, std::vector<Finding>& findings)
         : shape_(shape), mesh_(mesh), findings_(findings) {}
 
-    /// Inspects the mesh; false if its triangles cannot be looked at.
+    /// Examines the mesh; false if its triangles are invalid.
     bool run() {
         if (mesh_.indices.size() % 3 != 0 ||
             std::any_of(mesh_.indices.begin(), mesh_.indices.end(),
@@ -148,7 +148,7 @@ class MeshLint {
     std::vector<Finding>& findings_;
 };
 
-/// Triangles at the same place: which is hit is no matter of the scene.
+/// Finds coincident triangles, of which a ray may hit either.
 class Duplicates {
   public:
     explicit Duplicates(const Scene& scene) : scene_(scene) {}

@@ -26,7 +26,7 @@ Inflater::~Inflater() {
 }
 
 std::uint64_t Inflater::most_left() const {
-    // 64 KiB: what zlib may have taken in but not given out yet.
+    // 64 KiB: input that zlib may have consumed without output so far.
     return (packed_left_ + state_->stream.avail_in) * 1032 + 65536;
 }
 

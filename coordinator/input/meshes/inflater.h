@@ -8,11 +8,10 @@
 
 namespace treefarm {
 
-/// Unpacks a zlib stream piece by piece, so that nothing is allocated for what the stream does not hold.
+/// Unpacks a zlib stream in pieces, so that memory grows only with data that exist.
 class Inflater {
   public:
-    /// The packed bytes are the next `packed_size` bytes of `in`, or fewer: the stream knows its end. `name` begins
-    /// every message.
+    /// `packed_size`: upper bound of the packed bytes in `in`; the stream knows its end. `name` begins all messages.
     Inflater(std::istream& in, std::uint64_t packed_size, std::string name);
     ~Inflater();
     Inflater(const Inflater&) = delete;
@@ -27,12 +26,12 @@ class Inflater {
         return value;
     }
 
-    /// Checks that everything has been read and that the checksum is right; throws InputError.
+    /// Checks that all has been read and the checksum is right. Throws InputError.
     void finish();
 
     std::uint64_t unpacked() const { return unpacked_; }
-    /// No more than this can still come out, whatever a header claims: deflate packs 1032 bytes into one at best
-    /// (zlib's technical notes).
+    /// Upper bound of the bytes still to be unpacked: deflate packs at most 1032 bytes into one (zlib's technical
+    /// notes).
     std::uint64_t most_left() const;
 
     [[noreturn]] void refuse(const std::string& what, const std::string& cure) const;

@@ -11,7 +11,7 @@ namespace {
 
 using Vec3d = Imath::V3d;
 
-/// Zero for a triangle without area.
+/// Normal of a triangle; zero if it has no area.
 Vec3d triangle_normal(const Mesh& mesh, std::size_t triangle) {
     const Vec3d a(mesh.positions[mesh.indices[3 * triangle]]);
     const Vec3d b(mesh.positions[mesh.indices[3 * triangle + 1]]);
@@ -38,7 +38,7 @@ void compute_missing_normals(Mesh& mesh) {
     }
     for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
         if (mesh.normals[i] != Vec3(0.0f)) continue;
-        // Normals that cancel (two triangles back to back) leave no mean: any of them will do.
+        // Normals that cancel (two triangles back to back) have no mean; any of them is used.
         const Vec3d normal = sums[i].length() > 1e-6 ? sums[i].normalized() : any[i];
         mesh.normals[i] = normal == Vec3d(0.0) ? Vec3(0.0f, 0.0f, 1.0f) : Vec3(normal);
     }
@@ -74,12 +74,12 @@ void split_at_edges(Mesh& mesh, double min_cosine) {
         normals[i] = triangle_normal(mesh, i);
 
     Mesh split;
-    std::vector<std::uint32_t> origins;  // per new vertex, the one that it comes from
+    std::vector<std::uint32_t> origins;  // per new vertex, the one it comes from
     split.indices.resize(mesh.indices.size());
     for (std::size_t begin = 0, end; begin < corners.size(); begin = end) {
         for (end = begin + 1; end < corners.size() && key(corners[end]) == key(corners[begin]);)
             ++end;
-        // Normals of the clusters at this place, and their vertices: few, as few triangles meet in a point.
+        // Normals of the clusters at this position, and their vertices: few, since few triangles meet in a point.
         std::vector<std::pair<Vec3d, std::uint32_t>> clusters;
         for (std::size_t i = begin; i < end; ++i) {
             const Vec3d& normal = normals[corners[i] / 3];

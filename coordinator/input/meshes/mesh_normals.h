@@ -5,22 +5,22 @@
 
 namespace treefarm {
 
-/// Gives every vertex without a normal (a zero vector) the mean of its triangles' normals, weighted by their angle
-/// there (Thuermer and Wuethrich 1998). `mesh.normals` may be empty: all are computed then.
+/// Sets every missing vertex normal (a zero vector) to the mean of its triangles' normals, weighted by their angles
+/// there (Thuermer and Wuethrich 1998). If `mesh.normals` is empty, all are computed.
 void compute_missing_normals(Mesh& mesh);
 
-/// Turns all triangles round.
+/// Reverses the orientation of all triangles.
 void flip_winding(Mesh& mesh);
 
-/// Turns those triangles round whose front is not where their vertices' normals point.
+/// Reverses the triangles whose front is opposite to their vertices' normals.
 void orient_by_normals(Mesh& mesh);
 
-/// Drops the normals and gives triangles that share a place and texture coordinates there one vertex only if their
-/// normals agree to an angle of this cosine, so that smooth normals keep sharper edges. Triangles gather about the
-/// first one that fits, in their order, as Mitsuba 0.6 does (maxSmoothAngle).
+/// Removes the normals and splits vertices so that triangles share one (position and texture coordinates) only if their
+/// normals differ by at most the angle with cosine `min_cosine`: smooth normals then keep sharper edges. Triangles join
+/// the first cluster that fits, in order, as in Mitsuba 0.6 (maxSmoothAngle).
 void split_at_edges(Mesh& mesh, double min_cosine);
 
-/// Removes the normals if they say no more than the triangles do (to 1e-5).
+/// Removes the normals if they equal those of the triangles (to 1e-5).
 void drop_redundant_normals(Mesh& mesh);
 
 }  // namespace treefarm

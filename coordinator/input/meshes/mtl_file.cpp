@@ -52,7 +52,7 @@ class MtlReader {
         return *value;
     }
 
-    /// Three numbers, or one for a grey.
+    /// Three numbers, or one for grey.
     Rgb color() {
         const std::string_view first = next_word();
         if (first == "spectral" || first == "xyz")
@@ -64,7 +64,7 @@ class MtlReader {
         return rgb;
     }
 
-    /// The name that follows the options, "-s 1 1 1" and the like, which are skipped.
+    /// The file name after options such as "-s 1 1 1", which are skipped.
     std::string file_name() {
         std::string name;
         std::string_view word;

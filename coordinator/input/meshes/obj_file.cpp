@@ -16,7 +16,7 @@
 namespace treefarm {
 namespace {
 
-/// A positive index may point ahead in the file: the largest of each list is checked at the end.
+/// Largest index into a list, checked at the end, since positive indices may refer to later lines.
 struct LargestIndex {
     std::uint64_t index = 0;
     Location where;
@@ -104,7 +104,7 @@ class ObjReader {
         obj_.uvs.push_back(uv);
     }
 
-    /// An index from 0 of "7" (the seventh) or "-1" (the last one so far).
+    /// Index from 0 on, for "7" (the seventh) or "-1" (the last so far).
     std::uint32_t index(std::string_view text, std::size_t count, LargestIndex& largest) {
         const auto value = parse_integer(text);
         if (!value || *value == 0 || *value > std::numeric_limits<std::int32_t>::max())
@@ -122,7 +122,7 @@ class ObjReader {
         return static_cast<std::uint32_t>(one_based - 1);
     }
 
-    /// "v", "v/t", "v//n" or "v/t/n".
+    /// Corner from "v", "v/t", "v//n" or "v/t/n".
     ObjFile::Corner corner(std::string_view word) {
         ObjFile::Corner result;
         result.group = group_;
@@ -177,7 +177,8 @@ class ObjReader {
             add(a, b, c);
     }
 
-    /// A polygon is cut by its vertices. One that is not there yet follows later, or never: the rest of the file tells.
+    /// Refuses a polygon with a vertex that is not defined yet, since cutting it needs the positions. The cure depends
+    /// on whether the rest of the file defines the vertex.
     void refuse_late_vertex(const Location& where) {
         std::size_t count = obj_.positions.size();
         std::string_view keyword;

@@ -9,13 +9,12 @@
 
 namespace treefarm {
 
-/// Walks over the words of an OBJ or MTL file, statement by statement. A backslash at the end of a line continues the
-/// statement.
+/// Tokenizer of OBJ and MTL files, statement by statement. A backslash at the end of a line continues the statement.
 class ObjScanner {
   public:
     ObjScanner(std::string_view text, const std::string& file) : text_(text), file_(file) {}
 
-    /// The keyword of the next statement; false at the end of the file.
+    /// Moves to the next statement and returns its keyword; false at the end of the file.
     bool next_statement(std::string_view& keyword) {
         while (true) {
             std::string_view rest;
@@ -29,7 +28,7 @@ class ObjScanner {
         }
     }
 
-    /// The next word of this statement; false at its end.
+    /// The next word of the statement; false at its end.
     bool next_word(std::string_view& word) {
         skip_blanks();
         if (at_ >= text_.size() || text_[at_] == '\n') return false;
@@ -45,10 +44,10 @@ class ObjScanner {
         return true;
     }
 
-    /// Where the last word stands.
+    /// Location of the last word.
     Location where() const { return {file_, line_, static_cast<int>(word_at_ - line_start_) + 1}; }
 
-    /// The words of this statement that are left, with one blank between them: names may contain blanks.
+    /// The remaining words of the statement, separated by one blank: names may contain blanks.
     std::string rest() {
         std::string text;
         std::string_view word;

@@ -7,7 +7,7 @@
 namespace treefarm::ply {
 namespace {
 
-/// Last letters of properties that belong together, in their order.
+/// Suffixes of properties that belong together, in order.
 constexpr std::string_view kSchemes[] = {"xyzw", "rgba", "0123", "1234"};
 
 std::size_t index_of(const Element& element, std::string_view name) {
@@ -16,7 +16,7 @@ std::size_t index_of(const Element& element, std::string_view name) {
     return element.properties.size();
 }
 
-/// How many properties from `first` on follow a scheme.
+/// Number of properties from `first` on that follow a scheme.
 std::size_t length_of_run(const Element& element, std::size_t first, std::string_view scheme) {
     const std::string& name = element.properties[first].name;
     const std::string stem = name.substr(0, name.size() - 1);

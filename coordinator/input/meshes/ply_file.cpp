@@ -14,16 +14,16 @@ namespace {
 
 using namespace ply;
 
-/// Roles of the vertices' properties, by their place.
+/// Meaning of a vertex property.
 enum class Role : std::uint8_t { x, y, z, nx, ny, nz, u, v, none };
 
-/// The largest value of an integer type.
+/// Largest value of an integer type.
 double largest_of(Type type) {
     const bool is_signed = type == Type::int8 || type == Type::int16 || type == Type::int32;
     return std::ldexp(1.0, 8 * static_cast<int>(size_of(type)) - (is_signed ? 1 : 0)) - 1.0;
 }
 
-/// A group of properties counts only if all of it is there.
+/// Meaning of each property; a group of properties counts only if it is complete.
 std::vector<Role> roles_of(const Element& vertex) {
     std::vector<Role> roles(vertex.properties.size(), Role::none);
     const auto index_of = [&](std::string_view name) {
@@ -45,7 +45,7 @@ std::vector<Role> roles_of(const Element& vertex) {
     return roles;
 }
 
-/// Gathers the attributes of an element's properties in a mesh.
+/// Collects the attributes of an element in a mesh.
 class AttributeReader {
   public:
     AttributeReader(const Element& element, Mesh& mesh)
@@ -62,7 +62,7 @@ class AttributeReader {
     }
     bool wants(std::size_t property) const { return wanted_[property]; }
     void set(std::size_t property, float value) { row_[property] = value; }
-    /// Gives what was set to the values that are missing to `count`.
+    /// Extends each attribute to `count` values with the current ones.
     void fill(std::size_t count) {
         for (std::size_t i = 0; i < groups_.size(); ++i) {
             const std::vector<std::size_t>& from = groups_[i].properties;
@@ -113,14 +113,14 @@ class BodyReader {
 
     float finite(Type type) {
         const double value = values_.number(type);
-        // Also false for what is no number.
+        // also false for NaN
         if (!(std::abs(value) <= double(std::numeric_limits<float>::max())))
             values_.refuse("a vertex has a value that is not finite in single precision", "repair the file");
         return static_cast<float>(value);
     }
 
-    /// A value of an attribute: as in Mitsuba 2 and 3, integers are sRGB of which the largest is 1. Whether it is
-    /// finite matters where a texture asks for it.
+    /// Value of an attribute: as in Mitsuba 2 and 3, integers are sRGB with their maximum as 1. Whether it is finite is
+    /// checked only for attributes that textures need.
     float channel(Type type) {
         const double value = values_.any_number(type);
         if (!is_integer(type)) return static_cast<float>(value);
@@ -195,7 +195,7 @@ class BodyReader {
                     attributes.set(k, channel(property.type));
                 else
                     skip(property);
-            attributes.fill(mesh_.triangle_count());  // a polygon's triangles all have its value
+            attributes.fill(mesh_.triangle_count());  // all triangles of a polygon have its value
             values_.end_element();
         }
     }

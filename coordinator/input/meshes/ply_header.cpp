@@ -32,7 +32,7 @@ constexpr std::array<TypeName, 16> kTypeNames = {{{"char", Type::int8},
                                                   {"double", Type::float64},
                                                   {"float64", Type::float64}}};
 
-/// The smallest element is one byte, and a header is a page at most in practice.
+/// Limits of a header: the smallest element is one byte, and headers have a page at most in practice.
 constexpr std::size_t kMaxElements = 1000, kMaxProperties = 1000;
 
 class HeaderReader {
@@ -61,7 +61,7 @@ class HeaderReader {
     }
 
   private:
-    /// `word` counts from 0 in the line.
+    /// `word`: index in the line, from 0 on.
     [[noreturn]] void refuse(std::size_t word, const std::string& what, const std::string& cure) const {
         const int column = word < words_.size() ? static_cast<int>(words_[word].data() - line_start_) + 1 : 1;
         throw InputError({file_, line_, column}, what, cure);
@@ -142,7 +142,7 @@ class HeaderReader {
     }
 
     void check_counts() const {
-        std::uint64_t remaining = bytes_.size() - header_.body + 1;  // the last line of a text may have no end
+        std::uint64_t remaining = bytes_.size() - header_.body + 1;  // the last line of a text may lack its line end
         for (const Element& element : header_.elements) {
             const std::size_t each = element.min_bytes(header_.format == Format::ascii);
             if (each == 0) continue;

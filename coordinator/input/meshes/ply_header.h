@@ -19,7 +19,7 @@ struct Property {
     Type type = Type::float32;  ///< of the value, or of a list's values
     bool is_list = false;
     Type count_type = Type::uint8;  ///< of a list's length
-    int line = 0;                   ///< where it is declared
+    int line = 0;                   ///< line of its declaration
 };
 
 struct Element {
@@ -28,9 +28,9 @@ struct Element {
     std::vector<Property> properties;
     int line = 0;
 
-    /// The fewest bytes that one of them takes in the file: lists are empty, numbers in text have a digit and a space.
+    /// Least bytes of an element in the file: lists are empty; numbers in text have a digit and a space.
     std::size_t min_bytes(bool ascii) const;
-    /// The property of one of these names, or nullptr.
+    /// The first property with one of these names, or nullptr.
     const Property* find(std::initializer_list<std::string_view> names) const;
 };
 
@@ -40,11 +40,10 @@ struct Header {
     Format format = Format::ascii;
     std::vector<Element> elements;
     std::size_t body = 0;  ///< byte at which the data begin
-    int body_line = 0;     ///< and its line
+    int body_line = 0;     ///< line at which the data begin
 };
 
-/// Reads the header of a PLY file. Counts are checked against the bytes that follow it. What is wrong throws InputError
-/// at its line.
+/// Reads the header of a PLY file. Counts are checked against the bytes that follow. Throws InputError with the line.
 Header parse_header(std::string_view file_bytes, const std::string& file);
 
 }  // namespace treefarm::ply

@@ -13,13 +13,13 @@
 
 namespace treefarm::ply {
 
-/// The values of a text, one element a line.
+/// Values of a text file, one element per line.
 class TextValues {
   public:
     TextValues(std::string_view bytes, const Header& header, const std::string& file)
         : bytes_(bytes), file_(file), at_(header.body), line_(header.body_line), line_start_(header.body) {}
 
-    /// Every value takes a digit, and a space except for the last.
+    /// Upper bound of the values left: each has a digit, and all but the last a space.
     std::uint64_t most_values(Type) const { return (bytes_.size() - at_ + 1) / 2; }
 
     double number(Type) {
@@ -28,7 +28,7 @@ class TextValues {
         refuse(in_quotes(word) + " is not a number", "write a finite decimal number");
     }
 
-    /// NaN for a word that is no number.
+    /// The next number; NaN for a word that is none.
     double any_number(Type) { return parse_number(next_word()).value_or(std::numeric_limits<double>::quiet_NaN()); }
 
     std::int64_t integer(Type) {
@@ -48,7 +48,7 @@ class TextValues {
         if (at_ < bytes_.size()) new_line();
     }
 
-    /// Refuses the file unless nothing but white space is left.
+    /// Refuses the file unless only white space is left.
     void end() {
         while (at_ < bytes_.size()) {
             skip_blanks();
@@ -94,7 +94,7 @@ class TextValues {
     std::size_t line_start_;
 };
 
-/// The values of binary data.
+/// Values of a binary file.
 class BinaryValues {
   public:
     BinaryValues(std::string_view bytes, const Header& header, const std::string& file)
@@ -115,7 +115,7 @@ class BinaryValues {
 
     double any_number(Type type) { return number(type); }
 
-    /// The type is one of integers.
+    /// The next value of an integer type.
     std::int64_t integer(Type type) {
         switch (type) {
             case Type::int8:
@@ -140,7 +140,7 @@ class BinaryValues {
 
     void end_element() {}
 
-    /// Some programs end binary files like texts.
+    /// Refuses the file unless only white space is left: some programs end binary files with a line end.
     void end() {
         for (; at_ < bytes_.size(); ++at_)
             if (bytes_[at_] != '\n' && bytes_[at_] != '\r') {

@@ -17,12 +17,12 @@ constexpr std::uint32_t kHasNormals = 0x1, kHasUvs = 0x2, kHasColors = 0x8, kDou
 constexpr std::uint16_t kMagic = 0x041C;
 constexpr std::size_t kMaxName = 65536;
 
-/// Reads the places of things in the file itself.
+/// Reads versions and offsets in the file itself.
 class Container {
   public:
     Container(std::istream& in, std::uint64_t size, const std::string& file) : in_(in), size_(size), file_(file) {}
 
-    /// The version of the mesh that begins at a byte.
+    /// Version of the mesh that begins at a byte.
     std::uint16_t version_at(std::uint64_t offset) {
         if (get<std::uint16_t>(offset) != kMagic)
             refuse(offset, "there is no serialized mesh", "check that the file is Mitsuba's serialized format");
@@ -33,7 +33,7 @@ class Container {
         return version;
     }
 
-    /// Where mesh number `index` begins, by the table at the end of the file.
+    /// Offset of mesh number `index`, from the table at the end of the file.
     std::uint64_t offset_of(std::int64_t index, std::uint16_t version, const Location& where) {
         if (index == 0) return 0;
         if (size_ < 8) refuse(0, "the file is cut short", "repair it");
@@ -70,7 +70,7 @@ class Container {
     const std::string& file_;
 };
 
-/// Appends `count` vectors, in pieces: memory grows with what is really there.
+/// Appends `count` vectors in pieces, so that memory grows only with data that exist.
 template <class V>
 void read_vectors(Inflater& in, bool is_double, std::uint64_t count, std::vector<V>& values) {
     constexpr std::size_t n = V::dimensions(), piece = 4096;

@@ -10,12 +10,12 @@
 
 namespace treefarm {
 
-/// Reads mesh number `index` (from 0) of a file in Mitsuba's serialized format, versions 3 and 4: normals as written,
-/// texture coordinates, colours skipped. What is malformed, not finite or out of range throws InputError with its place
-/// in the file or in the unpacked mesh. `asked_from` is where the file's name stands.
+/// Reads mesh number `index` (from 0 on) of a file in Mitsuba's serialized format, versions 3 and 4: normals as
+/// written, texture coordinates; colours are skipped. Malformed, infinite and out-of-range values throw InputError with
+/// the position in the file or in the unpacked mesh. `asked_from`: location of the file's name.
 Mesh read_serialized(const std::filesystem::path& path, std::int64_t index, const Location& asked_from);
 
-/// Reads mesh number `index` from a stream of `size` bytes; `file` is the name for messages.
+/// Reads mesh number `index` from a stream of `size` bytes; `file`: name for messages.
 ///
 ///     file       := mesh* offset[count] count:u32        offset: u32 in version 3, u64 in version 4
 ///     mesh       := 0x041C:u16 version:u16 zlib(flags:u32 [name NUL, version 4] vertices:u64 triangles:u64

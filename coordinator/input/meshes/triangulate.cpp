@@ -15,7 +15,7 @@ double turn(const Point& a, const Point& b, const Point& c) {
     return (b - a).cross(c - a);
 }
 
-/// The polygon's normal, as long as twice its area (Newell's method).
+/// Normal of the polygon, with a length of twice its area (Newell's method).
 Imath::V3d area_normal(std::span<const Vec3> polygon) {
     Imath::V3d normal(0.0);
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -25,7 +25,7 @@ Imath::V3d area_normal(std::span<const Vec3> polygon) {
     return normal;
 }
 
-/// The polygon seen along its normal's largest component, so that it turns left.
+/// The polygon projected along its normal's largest component, so that it turns left.
 std::vector<Point> project(std::span<const Vec3> polygon, const Imath::V3d& normal) {
     int axis = 0;
     for (int i = 1; i < 3; ++i)
@@ -44,7 +44,7 @@ bool is_convex(const std::vector<Point>& points) {
         const Point& a = points[i];
         const Point& b = points[(i + 1) % n];
         const Point& c = points[(i + 2) % n];
-        // A corner that is straight up to rounding in single precision does not make the polygon concave.
+        // A corner that is straight within single precision does not make the polygon concave.
         if (turn(a, b, c) < -1e-6 * (b - a).length() * (c - b).length()) return false;
     }
     return true;
@@ -76,7 +76,7 @@ bool triangulate(std::span<const Vec3> polygon, std::vector<std::array<std::size
             std::size_t at = 0;
             while (at < left.size() && !is_ear(points, left, at))
                 ++at;
-            if (at == left.size()) break;  // it crosses itself: a fan is as good as anything
+            if (at == left.size()) break;  // the polygon intersects itself: a fan is as good as anything
             const std::size_t n = left.size();
             triangles.push_back({left[(at + n - 1) % n], left[at], left[(at + 1) % n]});
             left.erase(left.begin() + static_cast<std::ptrdiff_t>(at));

@@ -8,7 +8,7 @@ namespace {
 
 using Vec3d = Imath::V3d;
 
-/// The image of a direction in double precision.
+/// Image of a direction in double precision.
 Vec3d image(const Matrix& m, const Vec3d& v) {
     Vec3d result;
     m.multDirMatrix(v, result);
@@ -19,8 +19,8 @@ struct Frame {
     Vec3d s, t, n;
 };
 
-/// Where Mitsuba's azimuth about a direction begins (s). Version 0: coordinateSystem() in util.cpp; versions 2 and 3:
-/// Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
+/// Frame around a direction, whose s is the start of Mitsuba's azimuth. Version 0: coordinateSystem() in util.cpp;
+/// versions 2 and 3: Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
 Frame frame_about(const Vec3d& n, int version) {
     if (version < 2) {
         const bool by_x = std::abs(n.x) > std::abs(n.y);
@@ -54,7 +54,7 @@ Sphere read_sphere(Properties& properties) {
         sphere.center = transform_point(to_world, center);
         if (sphere.mirrored) sphere.flip_normals = !sphere.flip_normals;
     } else {
-        // Mitsuba 0.6 takes the scale out of the transformation before it moves the centre.
+        // Mitsuba 0.6 removes the scale from the transformation before it moves the centre.
         sphere.center = transform_point(to_world, center * static_cast<float>(1.0 / scale));
     }
     return sphere;
@@ -66,7 +66,7 @@ Disk read_disk(Properties& properties) {
     disk.center = transform_point(to_world, Vec3(0.0f));
     disk.half_u = Vec3(image(to_world, {1, 0, 0}));
     disk.half_v = Vec3(image(to_world, {0, 1, 0}));
-    // The front is where the image of +z is, as for all normals; flipping is a scale of z by -1.
+    // The front is where the image of +z is, as for all normals; flipping scales z by -1.
     disk.mirrored = is_mirroring(to_world) != properties.boolean("flip_normals", false);
     if (disk.mirrored) disk.half_v = -disk.half_v;
     return disk;

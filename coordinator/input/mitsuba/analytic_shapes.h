@@ -6,15 +6,15 @@
 
 namespace treefarm::mitsuba {
 
-/// <shape type="sphere">: "center" and "radius", then "to_world", which may scale all axes alike. In version 0 a
-/// mirroring transformation keeps the front outside, in versions 2 and 3 it turns the sphere inside out.
+/// Reads <shape type="sphere">: "center" and "radius", then "to_world", with a uniform scale. With a mirroring
+/// transformation version 0 keeps the front outside; versions 2 and 3 turn the sphere inside out.
 Sphere read_sphere(Properties& properties);
 
-/// <shape type="disk">: the unit disk of the plane z = 0, front towards +z, under any "to_world".
+/// Reads <shape type="disk">: the unit disk of the plane z = 0, front towards +z, under any "to_world".
 Disk read_disk(Properties& properties);
 
-/// <shape type="cylinder">: "p0", "p1" and "radius", then "to_world", which may scale the axis differently. In version
-/// 0 a mirroring transformation turns the cylinder inside out, in versions 2 and 3 it keeps the front outside.
+/// Reads <shape type="cylinder">: "p0", "p1" and "radius", then "to_world", which may scale the axis differently. With
+/// a mirroring transformation version 0 turns the cylinder inside out; versions 2 and 3 keep the front outside.
 Cylinder read_cylinder(Properties& properties);
 
 }  // namespace treefarm::mitsuba

@@ -15,7 +15,7 @@ namespace {
 
 using Rgb64 = Imath::Color3<double>;
 
-/// Mitsuba 0.6 lets a list fall to zero over its mean spacing at either end where it does not end at zero.
+/// Extends a list that does not end at zero to fall to zero over its mean spacing at either end, as Mitsuba 0.6 does.
 SpectrumSamples extend_to_zero(SpectrumSamples samples) {
     const double spacing = (samples.back().first - samples.front().first) / static_cast<double>(samples.size() - 1);
     if (samples.front().second != 0.0) samples.insert(samples.begin(), {samples.front().first - spacing, 0.0});
@@ -23,10 +23,9 @@ SpectrumSamples extend_to_zero(SpectrumSamples samples) {
     return samples;
 }
 
-/// Mitsuba 0.5 swaps the ends when it interpolates: between two samples a spectrum runs backwards, from the second
-/// value to the first (its InterpolatedSpectrum::eval; mended in 0.6). Scenes of that version look as published only
-/// so: the light of the published Cornell box would be too bright in red. The result has each inner wavelength
-/// twice.
+/// Spectrum as Mitsuba 0.5 evaluates it: between two samples it runs backwards, from the second value to the first
+/// (InterpolatedSpectrum::eval; fixed in 0.6). Scenes of that version look as published only in this way: the light of
+/// the published Cornell box would be too bright in red. The result has each inner wavelength twice.
 SpectrumSamples reverse_segments(const SpectrumSamples& samples) {
     SpectrumSamples reversed;
     for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
@@ -55,7 +54,7 @@ SpectrumSamples parse_list(const std::vector<std::string_view>& tokens, const Lo
     return samples;
 }
 
-/// "#rrggbb" as three values from 0 to 1.
+/// Three values from 0 to 1 for "#rrggbb".
 std::optional<Rgb64> parse_hex(std::string_view text) {
     if (text.size() != 7 || text[0] != '#') return std::nullopt;
     Rgb64 color;
@@ -95,8 +94,7 @@ Rgb64 read_spectrum(const XmlElement& element, ColorUse use) {
         throw InputError(element.where,
                          "<spectrum> has " + std::to_string(values.size()) + " values without wavelengths",
                          "give one value, pairs \"wavelength:value\", or use <rgb>");
-    // From version 2 on a light of equal energy at all wavelengths has the colour it has to the eye, which is not
-    // white.
+    // From version 2 on, a light of equal energy at all wavelengths has its true colour, which is not white.
     if (use == ColorUse::radiance && element.version >= 2) return xyz_to_rgb(1.0, 1.0, 1.0) * values[0];
     return Rgb64(values[0]);
 }
@@ -124,7 +122,7 @@ Rgb checked_color(Rgb64 color, bool of_list, bool is_old, ColorUse use, const Lo
         color /= largest;
     }
     if (use == ColorUse::metal && std::min({color.x, color.y, color.z}) < 0.0) {
-        // A fit can have it so; Fresnel's equations depend on the squares of eta and k alone.
+        // Fits may have negative values; Fresnel's equations depend on the squares of eta and k only.
         diagnostics.warn(where, "a metal's coefficient is negative: its sign has no influence");
         for (int i = 0; i < 3; ++i)
             color[i] = std::abs(color[i]);

@@ -8,26 +8,26 @@
 
 namespace treefarm::mitsuba {
 
-/// Use of a colour: it decides how spectra become Rgb.
+/// Use of a colour, which decides how spectra become Rgb.
 enum class ColorUse {
-    reflectance,  ///< in [0, 1]
-    coefficient,  ///< a property of a surface without an upper limit
+    reflectance,  ///< a factor in [0, 1]
+    coefficient,  ///< a property of a surface without upper limit
     metal,        ///< eta or k of a conductor
-    factor,       ///< on displacements, of any sign
-    radiance      ///< of something that shines
+    factor,       ///< factor on displacements, of any sign
+    radiance      ///< radiance of an emitter
 };
 
-/// Colour of a list of wavelengths, as the version of Mitsuba that the element is written for computes it when it
-/// renders in RGB. Channels can be negative.
+/// Colour of a list of wavelengths, as computed by the version of Mitsuba that the element is written for, in RGB mode.
+/// Channels can be negative.
 Imath::Color3<double> color_of_list(const SpectrumSamples& samples, const XmlElement& element, ColorUse use);
 
-/// The colour if its use allows it, otherwise InputError. That of a list is bounded first: the eye's response to a few
-/// wavelengths lies outside Rec. 709. So is a reflectance of an old file (before version 2): Mitsuba 0.6 scales one
-/// that exceeds 1 in a channel down to 0.99 (BSDF::ensureEnergyConservation).
+/// The colour if its use allows it; otherwise throws InputError. The colour of a list is clamped first, since the eye's
+/// response to a few wavelengths is outside Rec. 709. A reflectance in a file before version 2 that exceeds 1 in a
+/// channel is scaled to 0.99, as in Mitsuba 0.6 (BSDF::ensureEnergyConservation).
 Rgb checked_color(Imath::Color3<double> color, bool of_list, bool is_old, ColorUse use, const Location& where,
                   Diagnostics& diagnostics);
 
-/// The colour of an <rgb>, <srgb>, <spectrum> (value or file) or <blackbody> element, not negative.
+/// Colour of an <rgb>, <srgb>, <spectrum> (value or file) or <blackbody> element, not negative.
 Rgb read_color(const XmlElement& element, ColorUse use, Diagnostics& diagnostics);
 
 }  // namespace treefarm::mitsuba

@@ -13,15 +13,15 @@
 
 namespace treefarm::mitsuba {
 
-/// Treatment of things in a scene that cannot be rendered: strict reading stops, lenient reading collects warnings,
-/// reading for `treefarm check` goes on after what it refuses, and collects findings.
+/// Policy for parts of a scene that cannot be rendered: strict reading stops, lenient reading collects warnings, and
+/// reading for `treefarm check` continues after faults and collects findings.
 class Diagnostics {
   public:
     explicit Diagnostics(bool lenient, bool checks = false, SceneLimits limits = {})
         : lenient_(lenient), checks_(checks), limits_(std::move(limits)) {}
 
     bool checks() const { return checks_; }
-    /// What the scene may read and take.
+    /// Limits of the files and sizes of the scene.
     const SceneLimits& limits() const { return limits_; }
 
     /// Throws InputError, or, when lenient, warns that `instead` is done ("it is skipped") and returns.
@@ -38,7 +38,7 @@ class Diagnostics {
             warnings_.push_back({where, what});
     }
 
-    /// Notes what is worth knowing and no fault: for the log of a render, or among the findings.
+    /// Adds a remark that is no fault: to the log of a render, or to the findings.
     void note(const Location& where, const std::string& what, const char* kind = "reader") {
         if (checks_)
             find({Finding::Severity::note, kind, where, what, ""});
@@ -46,13 +46,13 @@ class Diagnostics {
             notes_.push_back({where, what});
     }
 
-    /// Keeps a finding, if the scene is being checked.
+    /// Adds a finding, if the scene is being checked.
     void find(Finding finding) {
-        // What several shapes refer to is read several times where it is refused.
+        // A faulty part that several shapes use is read several times.
         if (checks_ && seen_.insert(finding.text()).second) findings_.push_back(std::move(finding));
     }
 
-    /// Reads a part of a scene. One that is refused ends the reading, or, when checking, is left out.
+    /// Reads a part of a scene. A fault ends the reading, or, when checking, the part is skipped.
     template <class Part>
     void attempt(Part read) {
         if (!checks_) return read();
@@ -67,8 +67,8 @@ class Diagnostics {
     std::vector<Warning>& notes() { return notes_; }
     std::vector<Finding>& findings() { return findings_; }
 
-    /// Added to every position in the world, in double, before it becomes a float (load.cpp). 0 within groups,
-    /// which have a space of their own.
+    /// Added to every position in the world, in double, before it becomes a float (load.cpp). 0 within groups, which
+    /// have a space of their own.
     Imath::V3d world_shift{0.0};
 
   private:

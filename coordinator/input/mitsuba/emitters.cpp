@@ -13,7 +13,7 @@
 namespace treefarm::mitsuba {
 namespace {
 
-/// How often emitters are chosen does not change the image.
+/// Ignores the sampling weight, which does not change the image.
 void ignore_sampling(Properties& properties) {
     properties.ignore({"sampling_weight", "mis_compensation"});
 }
@@ -37,8 +37,8 @@ EmitterKind read_point(Properties& properties, TextureReader& textures, const Di
     return point;
 }
 
-/// The texture that a spot projects, in the frame of its transformation. One that is the same everywhere has no say in
-/// Mitsuba 0.6, and is none in 3.
+/// Reads the texture that a spot projects, in the frame of its transformation. A constant texture has no effect in
+/// Mitsuba 0.6, and is not allowed in 3.
 void read_projection(Properties& properties, const Matrix& to_world, SpotEmitter& spot, TextureReader& textures) {
     const XmlElement* texture = properties.named_child("texture", "texture");
     if (texture == nullptr) return properties.ignore({"texture"});
@@ -90,7 +90,7 @@ EmitterKind read_directional(Properties& properties, TextureReader& textures, co
 }
 
 EmitterKind read_constant(Properties& properties, TextureReader& textures, const Diagnostics&) {
-    // A constant looks the same from all sides.
+    // a constant is equal on all sides
     properties.ignore({"to_world"});
     return ConstantEmitter{textures.constant(properties, "radiance", Rgb(1.0f), ColorUse::radiance)};
 }
@@ -107,7 +107,8 @@ EmitterKind read_envmap(Properties& properties, TextureReader& textures, const D
     return environment;
 }
 
-/// What Mitsuba calls irradiance is a pi-th of it. The picture lies as a camera in that place would see it.
+/// Reads a projector. Mitsuba's irradiance is multiplied by pi. The picture has the orientation that a camera at the
+/// same position would see.
 EmitterKind read_projector(Properties& properties, TextureReader& textures, const Diagnostics&) {
     const Matrix to_world = properties.transform("to_world");
     if (std::abs(uniform_scale(to_world, 1e-3) - 1.0) > 1e-3)
@@ -135,14 +136,14 @@ struct EmitterReader {
     int first_version = 0;  ///< of Mitsuba that has it
 };
 
-/// Emitters that stand by themselves. The sky's (sky_emitters.h) may be two.
+/// Readers of emitters outside shapes. Those of the sky (sky_emitters.h) may add two emitters.
 constexpr EmitterReader kReaders[] = {
     {"point", read_point},       {"spot", read_spot},     {"directional", read_directional},
     {"constant", read_constant}, {"envmap", read_envmap}, {"projector", read_projector, 2},
 };
 constexpr std::string_view kSkies[] = {"sky", "sun", "sunsky"};
 
-/// "use point, spot, ..."; or the one that was meant.
+/// Cure "use point, spot, ..."; or the type that was probably meant.
 std::string cure_of(const std::string& type, int version) {
     std::vector<std::string_view> known;
     for (const EmitterReader& reader : kReaders)

@@ -11,13 +11,12 @@ namespace treefarm::mitsuba {
 void read_area_emitter(const XmlElement& emitter, std::int32_t shape, Scene& scene, TextureReader& textures,
                        const SceneDocument& document, Diagnostics& diagnostics);
 
-/// Adds an emitter that belongs to no shape: point, spot, directional, constant, envmap, sky, sun or sunsky. Others
-/// throw InputError, or are skipped when lenient.
+/// Adds an emitter outside of shapes: point, spot, directional, constant, envmap, sky, sun or sunsky. Others throw
+/// InputError, or are skipped when lenient.
 void read_emitter(const XmlElement& emitter, Scene& scene, TextureReader& textures, const SceneDocument& document,
                   Diagnostics& diagnostics);
 
-/// An environment whose axes are turned by the property to_world; anything but a rotation or a mirror throws
-/// InputError.
+/// Environment with the axes of the property to_world. Throws InputError unless it is a rotation or a reflection.
 EnvironmentEmitter read_environment_axes(Properties& properties);
 
 }  // namespace treefarm::mitsuba

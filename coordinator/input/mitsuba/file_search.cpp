@@ -21,7 +21,7 @@ std::string lower(std::string text) {
     return text;
 }
 
-/// The entry of the folder that differs from `name` in the case of its letters only; of several, the first in order.
+/// Entry of the folder that equals `name` up to the case of letters; of several, the first in order.
 path similar_entry(const path& folder, const std::string& name) {
     std::error_code error;
     const std::string wanted = lower(name);
@@ -32,7 +32,7 @@ path similar_entry(const path& folder, const std::string& name) {
     return similar.empty() ? path() : *std::min_element(similar.begin(), similar.end());
 }
 
-/// The file under a name whose letters may have another case, or an empty path.
+/// Existing file whose path equals `name` up to the case of letters, or an empty path.
 path find_similar(const path& folder, const path& name) {
     path found = folder;
     for (const path& part : name) {

@@ -9,18 +9,18 @@
 
 namespace treefarm::mitsuba {
 
-/// Where the names of files in a scene lead: to the folders of its <path> elements, the last one first, then to the
-/// scene's own folder, then to the folder of the included file in which the name stands. Mitsuba looks in the first
-/// two (FileResolver) and, like it, a second look ignores the case of letters and takes "\" for "/": many scenes
-/// were written on other systems.
+/// Search path of file names in a scene: the folders of its <path> elements, the last one first, then the scene's own
+/// folder, then the folder of the included file that has the name. Mitsuba searches the first two (FileResolver). As in
+/// Mitsuba, a second search ignores the case of letters and reads "\" as "/", since many scenes were written on other
+/// systems.
 class FileSearch {
   public:
     explicit FileSearch(std::filesystem::path scene_folder) { folders_.push_back(std::move(scene_folder)); }
 
-    /// A <path>, relative to the folder of the file in which it stands; InputError if there is no such folder.
+    /// Adds a <path>, relative to the folder of its file. Throws InputError if the folder does not exist.
     void add(const std::string& name, const std::filesystem::path& own_folder, const Location& where);
 
-    /// The first file of that name, or `own_folder / name` if there is none.
+    /// The first file of this name, or `own_folder / name` if there is none.
     std::filesystem::path find(const std::string& name, const std::filesystem::path& own_folder) const;
 
   private:

@@ -19,7 +19,7 @@ void use_gaussian(Film& film, double stddev) {
     film.filter_radius = static_cast<float>(4.0 * stddev);
 }
 
-/// B and C, which some versions of Mitsuba call A and B.
+/// Reads B and C, which some versions of Mitsuba call A and B.
 void read_cubic(Properties& properties, const std::string& type, Film& film) {
     film.filter = PixelFilter::cubic;
     film.filter_radius = 2.0f;
@@ -85,12 +85,12 @@ int read_pixels(Properties& properties, const char* name, int otherwise) {
     return static_cast<int>(pixels);
 }
 
-/// Pixels [begin, end) of a film's side.
+/// Pixels [begin, end) along a side of the film.
 struct Span {
     int begin, end;
 };
 
-/// The crop window's pixels along a side of the film that has so many.
+/// Pixels of the crop window along a side of `side` pixels.
 Span read_crop(Properties& properties, const char* offset, const char* size, int side) {
     const std::int64_t begin = properties.integer(offset, 0), pixels = properties.integer(size, side);
     if (begin < 0)
@@ -106,12 +106,12 @@ Span read_crop(Properties& properties, const char* offset, const char* size, int
     return {static_cast<int>(begin), static_cast<int>(begin + pixels)};
 }
 
-/// A span on a side of another size: every pixel that it touches.
+/// The span on a side of another size: all pixels that it touches.
 Span scaled(const Span& span, std::int64_t from, std::int64_t to) {
     return {static_cast<int>(span.begin * to / from), static_cast<int>((span.end * to + from - 1) / from)};
 }
 
-/// Size and crop window: a wanted size is that of the whole film, and takes the window along.
+/// Reads size and crop window. A wanted size is that of the whole film and scales the window.
 void read_size(Properties& properties, const FilmSize& wanted, Film& film) {
     const int width = read_pixels(properties, "width", film.width);
     const int height = read_pixels(properties, "height", film.height);
@@ -157,7 +157,7 @@ Film read_film(const XmlElement* element, const FilmSize& wanted, int version, s
         if (format == "rgba" || format == "luminance_alpha" || format == "luminancealpha" || format == "xyza")
             IntegratorSettings::add_aovs(settings, "alpha", properties.where("pixel_format"));
     }
-    // How else the image is stored is not the scene's business here, and no filter crosses a pixel's own samples.
+    // The storage of the image is the job's business, and filters do not cross the samples of a pixel.
     properties.ignore({"banner", "attach_log", "file_format", "pixel_format", "component_format", "channel_names",
                        "high_quality_edges"});
     if (version >= 2) properties.ignore({"sample_border", "compensate"});

@@ -24,7 +24,7 @@ void read_filters(IntegratorSettings& settings) {
     settings.read_words("directional_filter", "guiding.directional_filter", {{"nearest", "nearest"}, {"box", "box"}});
 }
 
-/// A fraction that is learned wins over one that is given: in the plugin that is where learning begins.
+/// Reads the BSDF fraction. Learning overrides a given value, with which the plugin only starts.
 void read_bsdf_fraction(IntegratorSettings& settings) {
     Properties& properties = settings.properties();
     settings.read_number("bsdf_sampling_fraction", "guiding.bsdf_fraction");
@@ -42,8 +42,8 @@ void read_bsdf_fraction(IntegratorSettings& settings) {
         settings.set_by("learn_bsdf_sampling_fraction", "guiding.bsdf_fraction", "learned");
 }
 
-/// Reads the budget, in seconds unless the element says otherwise, as in the plugin. Without a word about it the budget
-/// is the job's.
+/// Reads the budget, in seconds unless the element says otherwise, as in the plugin. Without one the job's budget
+/// holds.
 void read_budget(IntegratorSettings& settings) {
     Properties& properties = settings.properties();
     const bool given = properties.has("budget") || properties.has("budget_type");
@@ -81,7 +81,7 @@ void read_guided_path(IntegratorSettings& settings) {
     settings.read_integer("s_tree_threshold", "guiding.spatial_threshold");
     settings.read_number("d_tree_threshold", "guiding.directional_threshold");
     settings.read_integer("spp_per_pass", "guiding.spp_unit");
-    // The tree's size has no influence on what the image converges to.
+    // The tree's size does not change the expectation of the image.
     if (properties.integer("sd_tree_max_memory", -1) >= 0)
         settings.diagnostics().warn(properties.where("sd_tree_max_memory"),
                                     "sdTreeMaxMemory is ignored: the tree's memory has no limit");

@@ -16,14 +16,14 @@ double decoded(double value, double gamma) {
     return gamma == 1.0 ? value : std::pow(value, gamma);
 }
 
-/// The exponent that applies; 1 for files of linear floats.
+/// The exponent to apply; 1 for files of linear floats.
 double gamma_of(const StoredImage& file, const Decoding& decoding) {
     if (decoding.gamma != Decoding::kAuto) return decoding.gamma;
     if (!file.integers) return 1.0;
     return decoding.file_gamma && file.gamma > 0.0 ? file.gamma : Decoding::kSrgb;
 }
 
-/// Positions of the channels to keep among those of the file.
+/// Indices of the needed channels among those of the file.
 std::vector<std::size_t> choose_channels(const StoredImage& file, const std::string& wanted, const Location& where) {
     std::vector<std::size_t> chosen;
     std::string present;
@@ -64,15 +64,15 @@ void expand_to_floats(TextureImage& image) {
         image.floats.insert(image.floats.end(), 3, value);
 }
 
-/// The largest half-precision number: what an infinite value was before a program wrote it as half.
+/// Largest half-precision number, which programs write for infinity.
 constexpr float kLargestHalf = 65504.0f;
 
-/// How many values were changed.
+/// Numbers of changed values.
 struct Repairs {
     std::size_t infinite = 0, impossible = 0;
 };
 
-/// Infinite light becomes the largest half, values that no light and no surface has become 0.
+/// Replaces infinite light by the largest half, and values impossible for light and surfaces by 0.
 Repairs repair(std::vector<float>& values, const Decoding& decoding) {
     Repairs repairs;
     for (float& value : values) {
@@ -153,7 +153,7 @@ void ImageRequests::read(const std::vector<std::int32_t>& kept, Scene& scene, Di
         diagnostics.attempt([&] {
             if (loaded == nullptr || *loaded != request.path) {
                 loaded = nullptr;
-                // Again: names in material libraries were not held against it before.
+                // Checked again, since names in material libraries were not checked before.
                 diagnostics.limits().check_file(request.path, request.where);
                 file = read_stored_image(request.path, diagnostics.limits().image_pixels);
                 loaded = &request.path;

@@ -12,33 +12,33 @@
 
 namespace treefarm::mitsuba {
 
-/// Meaning of the integers of an image file.
+/// Interpretation of the values of an image file.
 struct Decoding {
     static constexpr double kAuto = 0.0, kSrgb = -1.0;
 
-    double gamma = kAuto;     ///< linear = encoded ^ gamma; kSrgb: sRGB's curve; kAuto: what the file says, else sRGB
-    bool file_gamma = false;  ///< kAuto listens to a PNG file's own gamma, as Mitsuba 0.6 does
-    std::string channel;      ///< "r", "g", "b", "a" or "y" alone; "": all but alpha
-    Location channel_where;   ///< of the request for it, for messages
+    double gamma = kAuto;        ///< linear = encoded ^ gamma; kSrgb: sRGB's curve; kAuto: as the file says, else sRGB
+    bool file_gamma = false;     ///< kAuto uses a PNG file's own gamma, as Mitsuba 0.6 does
+    std::string channel;         ///< one channel "r", "g", "b", "a" or "y"; "": all but alpha
+    Location channel_where;      ///< of that choice, for messages
     bool signed_values = false;  ///< negative floats are kept
-    bool is_light = false;       ///< infinite floats are kept, as the largest half
+    bool is_light = false;       ///< infinite floats become the largest half
     bool as_floats = false;      ///< three channels of linear floats, whatever the file has
 
     auto key() const { return std::tie(gamma, file_gamma, channel, signed_values, is_light, as_floats); }
     bool operator<(const Decoding& other) const { return key() < other.key(); }
 };
 
-/// Images that a scene asks for: each file once per meaning, and read at the end only, when it is known what is used.
+/// Images that a scene needs. Each file is read once per interpretation, and only at the end, when the used ones are
+/// known.
 class ImageRequests {
   public:
-    /// Index in Scene::images, where an empty image keeps the place. A missing file throws InputError at `where`.
+    /// Index in Scene::images, where an empty image is added for now. A missing file throws InputError at `where`.
     std::int32_t add(const std::filesystem::path& path, const Decoding& decoding, const Location& where, Scene& scene);
 
-    /// Width over height of an image that was asked for. The file is read for it, and again by read(). Throws
-    /// InputError.
+    /// Width over height of a requested image. The file is read for it, and again by read(). Throws InputError.
     double aspect(std::int32_t image) const;
 
-    /// Fills the images that are left; `kept` tells where each went (remove_unused). Throws InputError.
+    /// Reads the images that are still used; `kept`: new index of each (remove_unused). Throws InputError.
     void read(const std::vector<std::int32_t>& kept, Scene& scene, Diagnostics& diagnostics) const;
 
   private:

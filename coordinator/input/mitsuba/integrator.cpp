@@ -14,14 +14,13 @@ namespace {
 constexpr std::array<std::string_view, 7> kIntegrators = {"path",    "volpath", "direct",     "ao",
                                                           "ptracer", "bdpt",    "guided_path"};
 
-/// How light is transported; whether something guides is the job's business.
+/// Reads a path tracer. Guiding is left to the job.
 void read_path(IntegratorSettings& settings) {
     settings.set("integrator.next_event", "auto", settings.properties().where());
     settings.read_common();
 }
 
-/// Reads light that comes straight from an emitter; shading_samples stands for both numbers of samples, where they are
-/// not given.
+/// Reads direct illumination; shading_samples stands for both numbers of samples if they are not given.
 void read_direct(IntegratorSettings& settings) {
     settings.set("integrator.type", "direct", settings.properties().where());
     for (const char* key : {"integrator.emitter_samples", "integrator.bsdf_samples"})
@@ -31,7 +30,7 @@ void read_direct(IntegratorSettings& settings) {
     settings.read_flags();
 }
 
-/// Reads ambient occlusion. How many directions a sample tries does not change the image.
+/// Reads ambient occlusion. The number of directions per sample does not change the image.
 void read_ambient_occlusion(IntegratorSettings& settings) {
     Properties& properties = settings.properties();
     settings.set("integrator.type", "ao", properties.where());
@@ -44,15 +43,15 @@ void read_ambient_occlusion(IntegratorSettings& settings) {
     settings.read_flags();
 }
 
-/// Reads light tracing: the estimator is the scene's. How its work is cut, and whether paths wait for the sensor to be
-/// met by chance, does not change the image.
+/// Reads light tracing, as the estimator. The division of its work, and paths that hit the sensor by chance, do not
+/// change the image.
 void read_light_tracing(IntegratorSettings& settings) {
     settings.set("integrator.type", "light", settings.properties().where());
     settings.read_common();
     settings.properties().ignore({"granularity", "brute_force"});
 }
 
-/// Reads bidirectional path tracing. Which techniques it has does not change the image, but its noise.
+/// Reads bidirectional path tracing. Its techniques do not change the image, only its noise.
 void read_bidirectional(IntegratorSettings& settings) {
     settings.set("integrator.type", "bidirectional", settings.properties().where());
     settings.read_boolean("light_image", "bidirectional.light_image");
@@ -63,7 +62,7 @@ void read_bidirectional(IntegratorSettings& settings) {
     settings.read_common();
 }
 
-/// Reads an estimator of the same image by other means: how long paths are belongs to the image, the rest does not.
+/// Reads another estimator of the same image: the length of paths belongs to the image, the rest does not.
 void read_other(IntegratorSettings& settings, const std::string& type) {
     Properties& properties = settings.properties();
     settings.diagnostics().warn(properties.where(),
@@ -77,19 +76,19 @@ void read_other(IntegratorSettings& settings, const std::string& type) {
     properties.ignore_values();
 }
 
-/// Integrators of Mitsuba that converge to the image of a path tracer.
+/// Whether an integrator of Mitsuba converges to the image of a path tracer.
 bool is_other_estimator(const std::string& type) {
     constexpr std::array<std::string_view, 10> kTypes = {"mlt",  "pssmlt", "erpt", "photonmapper", "ppm",
                                                          "sppm", "vpl",    "prb",  "prb_basic",    "prbvolpath"};
     return std::find(kTypes.begin(), kTypes.end(), type) != kTypes.end();
 }
 
-/// Integrators around another one, which makes the image.
+/// Whether an integrator wraps another one, which makes the image.
 bool is_wrapper(const std::string& type) {
     return type == "moment" || type == "adaptive" || type == "irrcache";
 }
 
-/// The AOV that a variable of Mitsuba's plugin `aov` is, or "".
+/// AOV for a variable of Mitsuba's plugin `aov`, or "".
 std::string aov_named(const std::string& variable) {
     constexpr std::pair<std::string_view, const char*> kVariables[] = {
         {"albedo", "albedo"},     {"depth", "distance"},
@@ -101,7 +100,7 @@ std::string aov_named(const std::string& variable) {
     return "";
 }
 
-/// Reads the list NAME:VARIABLE, ... of the plugin `aov`: NAME becomes the name of the layer.
+/// Reads the list NAME:VARIABLE, ... of the plugin `aov`; NAME becomes the name of the layer.
 void read_aovs(IntegratorSettings& settings) {
     Properties& properties = settings.properties();
     const std::string list = properties.text("aovs", "");
@@ -172,7 +171,7 @@ void read_integrator(const XmlElement& integrator, std::vector<Setting>& setting
                                 did_you_mean(type, kIntegrators, "use " + listed(kIntegrators)),
                                 "paths are traced as the job says; of its parameters count maxDepth, rrDepth, "
                                 "strictNormals and hideEmitters");
-        // Somebody's own integrator, most likely: what all of them have belongs to the image.
+        // Probably a custom integrator: the common properties belong to the image.
         reader.read_common();
         return;
     }

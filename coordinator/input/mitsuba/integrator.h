@@ -8,9 +8,9 @@
 
 namespace treefarm::mitsuba {
 
-/// Turns <integrator type="path">, what converges to its image, <integrator type="guided_path"> and others that the
-/// program has, into settings of the job. Others throw InputError or, when lenient, leave the job what they have in
-/// common.
+/// Turns <integrator type="path">, integrators that converge to its image, <integrator type="guided_path"> and others
+/// that the program has into settings of the job. Unknown ones throw InputError or, when lenient, only set their common
+/// properties.
 void read_integrator(const XmlElement& integrator, std::vector<Setting>& settings, const SceneDocument& document,
                      Diagnostics& diagnostics);
 

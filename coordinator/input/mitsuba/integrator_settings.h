@@ -21,22 +21,22 @@ class IntegratorSettings {
     void set(const std::string& key, const std::string& value, const Location& where) {
         settings_.push_back({key, value, where});
     }
-    /// Sets a key, at the place of the property `name`.
+    /// Sets a key, at the location of the property `name`.
     void set_by(const char* name, const std::string& key, const std::string& value) {
         set(key, value, properties_.where(name));
     }
 
-    /// Adds to the list of layers that the scene asks for; `list` has commas between its entries.
+    /// Adds to the list of layers that the scene requests; `list` is comma-separated.
     void add_aovs(const std::string& list, const Location& where) { add_aovs(settings_, list, where); }
     static void add_aovs(std::vector<Setting>& settings, const std::string& list, const Location& where);
 
     void read_integer(const char* name, const char* key);
     void read_number(const char* name, const char* key);
     void read_boolean(const char* name, const char* key);
-    /// A property that is one of some words, and the value of the key for each; other words throw InputError.
+    /// Reads a property with one of several words; each maps to a value of the key. Other words throw InputError.
     void read_words(const char* name, const char* key, const std::vector<std::pair<std::string, std::string>>& words);
 
-    /// Reads what every integrator has: how long paths are, strict normals, hidden emitters.
+    /// Reads the properties of every integrator: length of paths, strict normals, hidden emitters.
     void read_common();
     /// Reads strict normals and hidden emitters alone.
     void read_flags();

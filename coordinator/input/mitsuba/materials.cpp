@@ -16,7 +16,7 @@ std::string nearest_type(const std::string& type) {
     return did_you_mean(type, known, kCure);
 }
 
-/// What a BSDF that is not available would simulate.
+/// Effect that an unsupported BSDF would simulate.
 std::string effect_of(const std::string& type) {
     static constexpr std::pair<const char*, const char*> kEffects[] = {{"irawan", "Irawan and Marschner's woven cloth"},
                                                                        {"hair", "hair fibres"},
@@ -198,7 +198,7 @@ void MaterialReader::set_detail(Material& material, const NormalDetail& detail, 
     material.detail = detail;
 }
 
-/// What Mitsuba 3 does about normals that are tilted too far, by default since 3.7.1.
+/// Reads the treatment of extremely tilted normals, as in Mitsuba 3, by default since 3.7.1.
 void MaterialReader::read_tilt(Properties& properties, NormalDetail& detail) {
     if (properties.element().version < 2) return;
     detail.flip_invalid = properties.boolean("flip_invalid_normals", true);
@@ -223,7 +223,7 @@ Material MaterialReader::convert_normal_map(Properties& properties) {
     read_tilt(properties, detail);
     Material material = convert_child(properties);
     if (!map.varies()) {
-        // One normal everywhere: a board of one colour.
+        // One normal everywhere: a checkerboard of one colour.
         map.texture = static_cast<std::int32_t>(scene_.textures.size());
         scene_.textures.push_back({CheckerboardTexture{Rgb(1.0f), Rgb(1.0f), {}}, "", properties.where()});
     }
@@ -312,7 +312,8 @@ Material MaterialReader::convert_mixture(Properties& properties) {
     if (!(total > 0.0)) throw InputError(where, "the weights are all 0", "give one that is positive");
     if (total > 1.0) diagnostics_.warn(where, "the weights sum up to more than 1 and were scaled down to it");
 
-    // From the last to the first: each blend adds one BSDF in front of what follows. What is missing to 1 is black.
+    // From last to first: each blend adds a BSDF to the following ones. Weights that sum to less than 1 are filled up
+    // with black.
     Material mixed = convert(*parts.back().object);
     double rest = weights.back();
     if (total < 1.0) {

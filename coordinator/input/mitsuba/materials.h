@@ -9,31 +9,30 @@
 
 namespace treefarm::mitsuba {
 
-/// Turns BSDF elements into materials of the scene; the same element always becomes the same material.
+/// Turns BSDF elements into materials of the scene; equal elements become the same material.
 ///
-/// BSDFs around others (twosided, mask, bumpmap, normalmap, blendbsdf, mixturebsdf) flatten, in any order, into one
-/// Material per element: what a Material cannot hold (two bump maps, bumps inside a blend) throws InputError or, when
-/// lenient, is left out.
+/// BSDFs around others (twosided, mask, bumpmap, normalmap, blendbsdf, mixturebsdf) are flattened, in any order, into
+/// one Material per element. Combinations that a Material cannot hold (two bump maps, bumps inside a blend) throw
+/// InputError or, when lenient, are dropped.
 class MaterialReader {
   public:
     MaterialReader(Scene& scene, const SceneDocument& document, Diagnostics& diagnostics)
         : scene_(scene), document_(document), diagnostics_(diagnostics), textures_(scene, document, diagnostics) {}
 
-    /// Index of the material. BSDFs that are not available throw InputError or, when lenient, become diffuse with
-    /// reflectance 0.5.
+    /// Index of the material. Unsupported BSDFs throw InputError or, when lenient, become diffuse with reflectance 0.5.
     std::int32_t read(const XmlElement& bsdf);
 
-    /// Index of the material of an element that stands in no file, which is kept.
+    /// Index of the material of an element made by the program, which is kept.
     std::int32_t read_made(XmlElement bsdf);
 
-    /// Index of what a shape without a BSDF gets: 0.5, or black if it is an emitter.
+    /// Index of the material of a shape without BSDF: reflectance 0.5, or black for an emitter.
     std::int32_t read_default(bool on_emitter, const Location& where);
 
-    /// The textures of the materials; emitters share them.
+    /// Textures of the materials, shared with emitters.
     TextureReader& textures() { return textures_; }
 
   private:
-    /// A material as its element says, converted once: references can make a few lines stand for any number of BSDFs.
+    /// The material of an element, converted once: by references, a few lines can stand for any number of BSDFs.
     const Material& convert(const XmlElement& bsdf);
     Material convert_new(const XmlElement& bsdf);
     Material convert_twosided(Properties& properties);
@@ -44,20 +43,20 @@ class MaterialReader {
     Material convert_blend(Properties& properties);
     Material convert_mixture(Properties& properties);
 
-    /// The only BSDF inside.
+    /// Material of the only BSDF inside.
     Material convert_child(Properties& properties);
-    /// The only texture inside, under any name; InputError if there is none.
+    /// The only texture inside, under any name. Throws InputError if there is none.
     const XmlElement& texture_inside(Properties& properties, const char* what);
     void set_detail(Material& material, const NormalDetail& detail, const Properties& properties);
     Material blend(const FloatInput& weight, Material first, Material second, const Properties& properties);
-    /// A material that a blend or coat holds: masks become blends with nothing.
+    /// Adds a material as a part of a blend or coat: masks become blends with null.
     std::int32_t add_part(Material material);
     std::int32_t add(Material material);
 
-    /// What a material is made of, its parts included.
+    /// Properties of a material and its parts.
     struct Summary {
         bool transmits = false;
-        int leaves = 1;  ///< BSDFs that hold no others, and coats
+        int leaves = 1;  ///< BSDFs without parts, and coats
     };
     Summary summary_of(const Material& material) const;
     bool transmits(const Material& material) const { return summary_of(material).transmits; }

@@ -17,7 +17,7 @@ void require_triangles(const Mesh& mesh, const std::filesystem::path& file) {
 
 Mesh read_ply_mesh(Properties& properties, Diagnostics& diagnostics) {
     const MeshOptions options = read_mesh_options(properties, false);
-    properties.ignore({"srgb"});  // of colours, which 0.6 alone has
+    properties.ignore({"srgb"});  // of colours, in 0.6 only
     Mesh mesh = read_ply(options.file, properties.where("filename"));
     require_triangles(mesh, options.file);
     transform_mesh(mesh, options, properties.where(), diagnostics);

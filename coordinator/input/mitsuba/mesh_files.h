@@ -6,16 +6,16 @@
 
 namespace treefarm::mitsuba {
 
-/// A part of an OBJ file's mesh that has one material.
+/// Part of an OBJ file's mesh with one material.
 struct ObjPart {
     Mesh mesh;
     ObjMaterial material;
 };
 
-/// The meshes of <shape type="obj">, "ply" and "serialized". Where the file has no normals, smooth ones are computed
-/// unless face_normals is set; where it has them, they decide which side is the front. A mirroring transformation keeps
-/// the front of a file without normals in versions 2 and 3 and of serialized files; in version 0 it reverses that of
-/// the others, as Mitsuba does.
+/// Reads the mesh of <shape type="obj">, "ply" or "serialized". If the file has no normals, smooth ones are computed
+/// unless face_normals is set; otherwise they decide on the front. With a mirroring transformation the front is kept
+/// for files without normals in versions 2 and 3 and for serialized files; in version 0 it is reversed for the others,
+/// as in Mitsuba.
 Mesh read_ply_mesh(Properties& properties, Diagnostics& diagnostics);
 Mesh read_serialized_mesh(Properties& properties, Diagnostics& diagnostics);
 std::vector<ObjPart> read_obj_parts(Properties& properties, MaterialReader& materials, bool on_emitter,

@@ -34,7 +34,7 @@ float largest(const Rgb& color) {
     return std::max(color.x, std::max(color.y, color.z));
 }
 
-/// Rounding must not take a reflectance above 1.
+/// Limits a reflectance to 1, which rounding may exceed.
 Rgb at_most_1(const Rgb& color) {
     return Rgb(std::min(color.x, 1.0f), std::min(color.y, 1.0f), std::min(color.z, 1.0f));
 }
@@ -66,7 +66,7 @@ XmlElement mirror_of(const MtlMaterial& material, const Rgb& reflectance) {
 }  // namespace
 
 XmlElement bsdf_of_mtl(const MtlMaterial& material, const std::filesystem::path& folder) {
-    // A map stands for Kd, which some programs write as black beside it.
+    // A map replaces Kd, which some programs write as black beside it.
     const Rgb kd = material.diffuse_map.empty() ? material.diffuse : Rgb(1.0f);
     const Rgb ks = material.has_specular ? material.specular : Rgb(0.0f);
     const float diffuse = largest(kd), specular = largest(ks), total = std::max(diffuse + specular, 1.0f);

@@ -6,9 +6,8 @@
 
 namespace treefarm::mitsuba {
 
-/// The BSDF that stands for a material of an MTL file, whose maps lie in `folder`: diffuse, and blended with it, where
-/// Ks is not black, a rough mirror of alpha = sqrt(2 / (Ns + 2)); seen from both sides. Together they reflect Kd and
-/// Ks, scaled down to 1 where they would reflect more.
+/// BSDF for a material of an MTL file, whose maps are in `folder`: diffuse; if Ks is not black, blended with a rough
+/// mirror of alpha = sqrt(2 / (Ns + 2)); twosided. The reflectance is Kd plus Ks, scaled down to 1 if it exceeds that.
 XmlElement bsdf_of_mtl(const MtlMaterial& material, const std::filesystem::path& folder);
 
 }  // namespace treefarm::mitsuba

@@ -105,7 +105,7 @@ std::vector<ObjMaterial> assign_obj_materials(const ObjFile& obj, const std::fil
                                               bool load_libraries, bool on_emitter, Properties& properties,
                                               MaterialReader& materials, Diagnostics& diagnostics) {
     Assignment assignment(obj, properties, materials, diagnostics);
-    if (properties.element().version >= 2) properties.only_child("bsdf");  // as Mitsuba 3, which has no names here
+    if (properties.element().version >= 2) properties.only_child("bsdf");  // as in Mitsuba 3, which ignores names here
     assignment.read_named();
     if (load_libraries && assignment.lacks()) assignment.read_libraries(file);
     return assignment.finish(on_emitter);

@@ -14,14 +14,14 @@ template <class V>
 struct BitHash {
     std::size_t operator()(const V& v) const {
         std::uint64_t hash = 0;
-        // Adding zero makes -0 and 0, which are equal, the same bits.
+        // Adding zero gives -0 and 0, which are equal, the same bits.
         for (unsigned i = 0; i < V::dimensions(); ++i)
             hash = mix_bits(hash ^ std::bit_cast<std::uint32_t>(v[static_cast<int>(i)] + 0.0f));
         return hash;
     }
 };
 
-/// For each value the index of the first one that is equal.
+/// For each value the index of the first equal one.
 template <class V>
 std::vector<std::uint32_t> first_equal(const std::vector<V>& values) {
     std::unordered_map<V, std::uint32_t, BitHash<V>> first;
@@ -46,7 +46,7 @@ struct CornerEqual {
     }
 };
 
-/// Makes vertices of corners: those that agree in everything are one.
+/// Makes vertices of corners; equal corners share a vertex.
 class CornerMerger {
   public:
     CornerMerger(const ObjFile& obj, bool with_normals, bool separate_groups)
@@ -90,7 +90,7 @@ class CornerMerger {
     std::vector<std::uint32_t> position_of_, uv_of_;
 };
 
-/// Leaves only the group of that number among those that have faces.
+/// Keeps only one group, by its number among those that have faces.
 void select_group(ObjFile& obj, std::int64_t number, const Location& where) {
     std::int64_t at = -1;
     std::uint32_t group = 0;
@@ -132,7 +132,7 @@ std::vector<ObjPart> read_obj_parts(Properties& properties, MaterialReader& mate
     const std::vector<ObjMaterial> assigned =
         assign_obj_materials(obj, options.file, load_materials, on_emitter, properties, materials, diagnostics);
 
-    // Materials that are the same share a part, in the order in which they first occur.
+    // Equal materials share a part, in order of their first use.
     std::vector<std::size_t> part_of(assigned.size(), assigned.size());
     std::vector<ObjPart> parts;
     std::vector<std::vector<ObjFile::Corner>> corners;

@@ -34,7 +34,7 @@ bool is_value_tag(const std::string& tag) {
     return std::find(kValueTags.begin(), kValueTags.end(), tag) != kValueTags.end();
 }
 
-/// What to do about an element that nobody knows: it may be a misspelt light, which is not to be lost.
+/// Cure for an unknown element: it may be a misspelt light, which must not be lost.
 std::string cure_of_tag(const std::string& tag) {
     std::vector<std::string_view> tags(kValueTags.begin(), kValueTags.end());
     tags.insert(tags.end(), object_tags().begin(), object_tags().end());
@@ -42,14 +42,14 @@ std::string cure_of_tag(const std::string& tag) {
     return did_you_mean(tag, tags, "remove it");
 }
 
-/// The effect that an object which is not read would simulate, for messages.
+/// Effect that an unsupported object would simulate, for messages.
 std::string effect_of(const std::string& tag) {
     if (tag == "medium" || tag == "phase" || tag == "volume") return " (light scattered and absorbed by a medium)";
     if (tag == "subsurface") return " (light scattered below surfaces)";
     return "";
 }
 
-/// "max_depth" -> "maxDepth".
+/// Converts "max_depth" to "maxDepth".
 std::string camel_case(const std::string& snake_case) {
     std::string result;
     for (std::size_t i = 0; i < snake_case.size(); ++i)
@@ -241,7 +241,7 @@ const XmlElement* Properties::named_child(const std::string& tag, const std::str
         if ((found != nullptr || has(name)) && !entry.used)
             repeated(entry.child.where, in_quotes(entry.child.name) + " of " + title() + " is given twice",
                      "remove one of them");
-        // The object holds: a value beside it is not what anybody asks for.
+        // The object is used; a value beside it is superfluous.
         if (const auto value = values_.find(name); value != values_.end()) value->second.used = true;
         entry.used = true;
         found = entry.child.object;

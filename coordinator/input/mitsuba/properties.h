@@ -12,39 +12,39 @@
 
 namespace treefarm::mitsuba {
 
-/// "maxDepth" -> "max_depth": the names of Mitsuba 0.5 and 0.6 in the spelling of 2 and 3.
+/// Converts "maxDepth" to "max_depth": names of Mitsuba 0.5 and 0.6 in the spelling of 2 and 3.
 std::string snake_case(const std::string& camel_case);
 
-/// A text in small letters (ASCII).
+/// Text in lower case (ASCII).
 std::string lower_case(std::string text);
 
-/// An object inside another one, references resolved.
+/// An object inside another one, with references resolved.
 struct Child {
     const XmlElement* object;
-    std::string name;  ///< of the property that it stands for: "reflectance"; mostly empty
-    Location where;    ///< where it is used
+    std::string name;  ///< of the property it stands for: "reflectance"; mostly empty
+    Location where;    ///< location of its use
 };
 
-/// Typed access to what stands inside an object's element. Names are in snake case and match both spellings. What is
-/// never asked for is an error in finish(), so that a typing error does not pass unnoticed; properties in a file of
-/// version 0 only get a warning, as Mitsuba 0.6 gives it.
+/// Typed access to the content of an object's element. Names are in snake case and match both spellings. In finish(), a
+/// property that was never asked for is an error, so that typing errors are noticed; in a file of version 0 it is only
+/// a warning, as in Mitsuba 0.6.
 class Properties {
   public:
     /// Wrong attributes, repeated properties and unknown elements throw InputError (or warn, when lenient). In a file
-    /// of version 0 the last one of repeated properties holds, with a warning.
+    /// of version 0 the last of repeated properties holds, with a warning.
     Properties(const XmlElement& object, const SceneDocument& document, Diagnostics& diagnostics);
 
     const XmlElement& element() const { return object_; }
     const Location& where() const { return object_.where; }
-    /// "<shape type="obj">", for messages.
+    /// Text "<shape type="obj">", for messages.
     std::string title() const;
-    /// The plugin's name, in lower case; InputError if there is none.
+    /// Name of the plugin, in lower case. Throws InputError if there is none.
     std::string type() const;
     /// The id, or "".
     std::string id() const;
 
     bool has(const std::string& name) const { return values_.count(name) > 0; }
-    /// Where the property stands, or the object itself.
+    /// Location of the property, or of the object if it has no such property.
     const Location& where(const std::string& name) const;
 
     double number(const std::string& name, double otherwise);
@@ -57,26 +57,26 @@ class Properties {
     Rgb color(const std::string& name, const Rgb& otherwise, ColorUse use);
     Matrix transform(const std::string& name);
 
-    /// The tag of the value of this name ("float", "string"...), or "".
+    /// Tag of the value of this name ("float", "string"...), or "".
     std::string tag_of(const std::string& name) const;
 
-    /// The object of a tag that stands for the property `name`, or nullptr. A second one throws InputError, or holds in
-    /// a file of version 0.
+    /// Object with this tag for the property `name`, or nullptr. A second one throws InputError or, in a file of
+    /// version 0, replaces the first.
     const XmlElement* named_child(const std::string& tag, const std::string& name);
-    /// The objects of a tag, in their order.
+    /// The objects with this tag, in order.
     std::vector<Child> children(const std::string& tag);
-    /// The only object of a tag, or nullptr; a second one throws InputError.
+    /// The only object with this tag, or nullptr. A second one throws InputError.
     const XmlElement* only_child(const std::string& tag);
 
-    /// Properties that have no influence here: whatever they say is accepted.
+    /// Accepts properties that have no influence, with any value.
     void ignore(std::initializer_list<const char*> names);
 
-    /// Accepts all properties whose name begins so, whatever they say.
+    /// Accepts all properties whose names begin with `prefix`, with any value.
     void ignore_prefix(const std::string& prefix);
-    /// Accepts all values that were not asked for yet, whatever they say.
+    /// Accepts all values that were not asked for yet.
     void ignore_values();
 
-    /// Refuses what nobody asked for.
+    /// Refuses properties that were not asked for.
     void finish();
 
   private:
@@ -88,12 +88,12 @@ class Properties {
         Child child;
         bool used = false;
     };
-    /// The element of a property that must have one of these tags, or nullptr.
+    /// Element of a property, which must have one of these tags; nullptr if it is absent.
     const XmlElement* find(const std::string& name, std::initializer_list<std::string_view> tags, const char* kind);
     void add_value(const XmlElement& element);
-    /// Mitsuba 0.6 warns of what later versions refuse.
+    /// Whether faults that later versions refuse give warnings, as in Mitsuba 0.6.
     bool is_tolerant() const { return object_.version == 0; }
-    /// Warns, or throws InputError, of something that was said before.
+    /// Warns of a repeated property, or throws InputError.
     void repeated(const Location& where, const std::string& what, const char* cure);
 
     const XmlElement& object_;

@@ -7,11 +7,11 @@
 
 namespace treefarm::mitsuba {
 
-/// Whether an element only says what something is, for others to refer to: at a scene's top it does nothing by itself.
+/// Whether an element only defines an object for references: at a scene's top level it has no effect.
 bool is_definition(const XmlElement& element);
 
-/// The objects that the scene is made of: what stands at its top and is no definition, and all that this refers to,
-/// directly or through others. The rest has no influence on the image.
+/// Objects that the scene consists of: those at its top level that are no definitions, and all that they refer to,
+/// directly or indirectly. The others do not influence the image.
 std::set<const XmlElement*> reachable_objects(const SceneDocument& document);
 
 }  // namespace treefarm::mitsuba

@@ -26,7 +26,7 @@ SceneReading read(const SceneDocument& document, Diagnostics diagnostics, const 
     Properties root(document.root(), document, diagnostics);
     const XmlElement& sensor = choose_sensor(root, wanted_sensor, diagnostics);
     diagnostics.attempt([&] { read_sensor(sensor, film_size, scene, reading.settings, document, diagnostics); });
-    // The budget of a guided integrator wins over the sampler's, which it ignores: it comes later.
+    // The budget of a guided integrator overrides the sampler's, which it ignores: it comes later.
     if (const XmlElement* integrator = root.only_child("integrator"))
         diagnostics.attempt([&] { read_integrator(*integrator, reading.settings, document, diagnostics); });
 
@@ -38,7 +38,7 @@ SceneReading read(const SceneDocument& document, Diagnostics diagnostics, const 
         return false;
     };
     MaterialReader materials(scene, document, diagnostics);
-    // What is read where it is referred to.
+    // Objects that are read where they are referred to.
     for (const char* tag : {"texture", "sampler", "film", "rfilter", "subsurface", "medium", "phase", "volume"})
         root.children(tag);
     for (const Child& bsdf : root.children("bsdf"))
@@ -48,7 +48,7 @@ SceneReading read(const SceneDocument& document, Diagnostics diagnostics, const 
         if (is_used(shape)) diagnostics.attempt([&] { shapes.read(*shape.object); });
     for (const Child& emitter : root.children("emitter"))
         diagnostics.attempt([&] { read_emitter(*emitter.object, scene, materials.textures(), document, diagnostics); });
-    // How Mitsuba builds its hierarchy does not change the image.
+    // Options of Mitsuba's hierarchy do not change the image.
     root.ignore_prefix("kd_");
     root.ignore({"allow_thread_reordering", "compact_acceleration_structures"});
     if (const char* robust = "embree_use_robust_intersections"; root.has(robust))

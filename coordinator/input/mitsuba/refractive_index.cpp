@@ -13,8 +13,8 @@ struct Substance {
     double index;
 };
 
-/// The names of Mitsuba (src/bsdfs/ior.h of 0.6, include/mitsuba/render/ior.h of 3) with its values: most are from
-/// Hecht, Optics, at about 589 nm and 0 to 20 degrees Celsius.
+/// Names and values of Mitsuba (src/bsdfs/ior.h of 0.6, include/mitsuba/render/ior.h of 3); most are from Hecht,
+/// Optics, at about 589 nm and 0 to 20 degrees Celsius.
 constexpr std::array<Substance, 23> kSubstances = {
     {{"vacuum", 1.0},      {"helium", 1.000036},        {"hydrogen", 1.000132},
      {"air", 1.000277},    {"carbon dioxide", 1.00045}, {"water", 1.3330},

@@ -7,10 +7,10 @@
 
 namespace treefarm::mitsuba {
 
-/// Index of refraction that a property gives as a number or as the name of a substance ("water", "bk7"...).
+/// Index of refraction from a property with a number or the name of a substance ("water", "bk7"...).
 double read_refractive_index(Properties& properties, const std::string& name, const std::string& otherwise);
 
-/// intIOR over extIOR, above 0.
+/// Relative index of refraction intIOR / extIOR, above 0.
 float read_relative_index(Properties& properties, const std::string& inside_otherwise);
 
 }  // namespace treefarm::mitsuba

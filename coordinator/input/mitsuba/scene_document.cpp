@@ -15,7 +15,7 @@ constexpr std::size_t kMaxIncludes = 10'000;
 constexpr std::size_t kMaxElements = 10'000'000;
 constexpr int kMaxReferenceDepth = 100;
 
-/// Puts includes in place and replaces $name, in the order of the document: a <default> holds from where it stands.
+/// Inserts includes and replaces $name, in document order: a <default> is valid from its position on.
 class Expander {
   public:
     Expander(Parameters& parameters, FileSearch& files, const SceneLimits& limits)
@@ -73,7 +73,7 @@ class Expander {
                 "open it in Mitsuba 0.5 or 0.6, which bring it to their version: 0.5, 0.6, 2 and 3 are read");
         element.version = version;
         element.is_0_5 = is_0_5_;
-        // From version 2 on a spectrum that names a plugin is an object, of the same kind as a texture.
+        // From version 2 on a spectrum with a plugin name is an object, like a texture.
         if (version >= 2 && element.tag == "spectrum" && element.find("type") != nullptr) element.tag = "texture";
         for (XmlAttribute& attribute : element.attributes)
             attribute.value = parameters_.substitute(attribute.value, element.where);
@@ -166,7 +166,7 @@ const XmlElement& SceneDocument::resolve(const XmlElement& element) const {
         nearest.empty() ? "define it or remove the reference" : "did you mean " + in_quotes(nearest) + "?");
 }
 
-/// After everything else was read: a <path> also holds for what stands before it.
+/// Runs after all else was read, since a <path> also applies to elements before it.
 void SceneDocument::find_files(XmlElement& element, const FileSearch& files, const SceneLimits& limits) const {
     const std::string* name = element.find("name");
     const bool is_value = element.tag == "string" && name != nullptr && *name == "filename";

@@ -14,21 +14,22 @@
 
 namespace treefarm::mitsuba {
 
-/// Tags of elements that make an object (as opposed to a property): they can have an id and be referred to.
+/// Tags of elements that are objects (not properties): they can have an id and be referred to.
 std::span<const std::string_view> object_tags();
 bool is_object_tag(const std::string& tag);
 
-/// A scene's elements with includes put in place, every $name replaced and every file name made one that can be opened.
+/// Elements of a scene, with includes inserted, every $name replaced, and every file name turned into a path that can
+/// be opened.
 class SceneDocument {
   public:
-    /// `defines` are values for $name from outside; they win over <default>. Cycles of includes or references, unknown
-    /// and repeated ids, undefined $names and defines that the scene does not use throw InputError.
+    /// `defines`: values for $name from outside, which override <default>. Cycles of includes or references, unknown
+    /// and repeated ids, undefined $names, and defines that the scene does not use throw InputError.
     SceneDocument(const std::filesystem::path& path, const std::map<std::string, std::string>& defines,
                   const SceneLimits& limits = {});
 
     const XmlElement& root() const { return *root_; }
 
-    /// The object that a <ref> means; any other element is returned as it is.
+    /// The object that a <ref> refers to; any other element itself.
     const XmlElement& resolve(const XmlElement& element) const;
 
   private:

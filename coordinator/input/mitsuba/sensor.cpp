@@ -18,7 +18,7 @@ double radians(double degrees) {
     return degrees * M_PI / 180.0;
 }
 
-/// The stream of random numbers is Treefarm's own, whatever sampler the scene asks for.
+/// Reads a sampler. Random numbers are always Treefarm's own.
 void read_sampler(const XmlElement& sampler, std::vector<Setting>& settings, const SceneDocument& document,
                   Diagnostics& diagnostics) {
     Properties properties(sampler, document, diagnostics);
@@ -32,7 +32,7 @@ void read_sampler(const XmlElement& sampler, std::vector<Setting>& settings, con
     properties.finish();
 }
 
-/// Opens the pinhole to a disk and moves the film's image out to the plane of focus: points there stay sharp.
+/// Turns the pinhole into a disk and moves the film's image to the plane of focus, where points are sharp.
 void add_lens(Properties& properties, const Matrix& to_world, Camera& camera, Diagnostics& diagnostics) {
     if (!properties.has("aperture_radius"))
         throw InputError(properties.where(), properties.title() + " has no aperture",
@@ -51,14 +51,14 @@ void add_lens(Properties& properties, const Matrix& to_world, Camera& camera, Di
     camera.lens_v = transform_vector(to_world, Vec3(0.0f, size, 0.0f));
 }
 
-/// Whether vectors keep three dimensions.
+/// Whether a matrix preserves three dimensions.
 bool is_invertible(const Matrix& m) {
     const Imath::V3d x(m[0][0], m[0][1], m[0][2]), y(m[1][0], m[1][1], m[1][2]), z(m[2][0], m[2][1], m[2][2]);
     const double volume = std::abs(x.cross(y).dot(z));
     return volume > 1e-9 * x.length() * y.length() * z.length() && std::isfinite(volume);
 }
 
-/// Sees [-1, 1] across its x axis: to_world scales that to what the film shall see.
+/// Orthographic camera: the film covers [-1, 1] along its x axis, scaled by to_world.
 Camera orthographic_camera(const Matrix& to_world, double aspect) {
     const auto direction = [&](double x, double y, double z) {
         Imath::V3d result;
@@ -82,7 +82,7 @@ Camera read_orthographic(Properties& properties, double aspect) {
     return orthographic_camera(to_world, aspect);
 }
 
-/// A panorama of all directions: longitude across, from behind over the left to the front in the middle, and latitude
+/// Panorama of all directions: longitude across, from behind over the left to the front in the middle, and latitude
 /// down (Mitsuba 0.6's `spherical`).
 Camera read_spherical(Properties& properties) {
     const Matrix to_world = properties.transform("to_world");
@@ -139,7 +139,7 @@ void read_sensor(const XmlElement& sensor, const FilmSize& wanted, Scene& scene,
         diagnostics.unsupported(sensor.where, "the sensor " + in_quotes(type) + " is not available in this version",
                                 did_you_mean(type, kSensors, "use perspective, thinlens, orthographic or spherical"),
                                 "it is read as perspective");
-        // What others have in addition.
+        // Properties of other sensors.
         properties.ignore({"aperture_radius", "kc", "scale", "srf"});
     }
     if (properties.number("shutter_close", 0.0) != properties.number("shutter_open", 0.0))
@@ -153,7 +153,7 @@ void read_sensor(const XmlElement& sensor, const FilmSize& wanted, Scene& scene,
     scene.camera = type == "orthographic" ? read_orthographic(properties, aspect)
                    : type == "spherical"  ? read_spherical(properties)
                                           : read_perspective(properties, type, aspect, diagnostics);
-    // A pinhole has no focus, and rays need no clipping planes: what stands before the near one is seen.
+    // A pinhole has no focus, and rays need no clipping planes: objects before the near plane are visible.
     properties.ignore({"near_clip", "far_clip", "focus_distance"});
     properties.finish();
 }

@@ -9,18 +9,19 @@
 
 namespace treefarm::mitsuba {
 
-/// A film size that a job asks for in place of the scene's; 0: as the scene says.
+/// Film size that a job requests; 0: as in the scene.
 struct FilmSize {
     int width = 0, height = 0;
 };
 
 /// Reads <sensor type="perspective">, "thinlens" or "orthographic" with its film, filter and sampler into scene.camera
-/// and scene.film; what the sampler says becomes settings.
+/// and scene.film; properties of the sampler become settings.
 void read_sensor(const XmlElement& sensor, const FilmSize& wanted, Scene& scene, std::vector<Setting>& settings,
                  const SceneDocument& document, Diagnostics& diagnostics);
 
-/// Camera of a horizontal field of view (degrees) on a film of the given width over height. Camera space is Mitsuba's:
-/// the camera looks along z, y is up, x is to the left. The principal point moves by a share of the film.
+/// Camera with a horizontal field of view (degrees) on a film of the given aspect, width over height. Camera space is
+/// Mitsuba's: the camera looks along z, y is up, x is to the left. The principal point is offset by a share of the
+/// film.
 Camera make_camera(const Matrix& to_world, double horizontal_fov, double aspect, double principal_x,
                    double principal_y);
 

@@ -11,7 +11,7 @@ std::string id_of(const Child& sensor) {
     return id ? *id : "";
 }
 
-/// "0 (cam0), 1, 2 (side)"
+/// List "0 (cam0), 1, 2 (side)".
 std::string list_of(const std::vector<Child>& sensors) {
     std::string text;
     for (std::size_t i = 0; i < sensors.size(); ++i) {

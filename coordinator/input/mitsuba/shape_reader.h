@@ -10,8 +10,8 @@
 
 namespace treefarm::mitsuba {
 
-/// Turns shape elements into shapes of the scene, with their materials and area emitters. A shapegroup's shapes become
-/// a group, which instances place.
+/// Turns shape elements into shapes of the scene, with their materials and area emitters. Shapes of a shapegroup become
+/// a group, for instances.
 class ShapeReader {
   public:
     ShapeReader(Scene& scene, MaterialReader& materials, const SceneDocument& document, Diagnostics& diagnostics)
@@ -31,10 +31,10 @@ class ShapeReader {
     bool is_flat(const Part& part, const XmlElement& element, bool on_emitter);
     void add(Part part, const Properties& properties, const XmlElement* emitter, std::int32_t group);
     void read_shape(const XmlElement& element, std::int32_t group);
-    /// Shapes that Mitsuba 3 joins for speed: each stands for itself here.
+    /// Reads shapes that Mitsuba 3 merges for speed; here they stay separate.
     void read_merged(const XmlElement& element, std::int32_t group);
     void read_instance(const XmlElement& element);
-    /// The group of a <shape type="shapegroup">, read when it is asked for the first time; kNone if it is empty.
+    /// Group of a <shape type="shapegroup">, read on first use; kNone if it is empty.
     std::int32_t group_of(const XmlElement& element);
 
     Scene& scene_;
@@ -42,7 +42,7 @@ class ShapeReader {
     const SceneDocument& document_;
     Diagnostics& diagnostics_;
     std::map<const XmlElement*, std::int32_t> groups_;
-    std::uint64_t triangles_ = 0;  ///< so far
+    std::uint64_t triangles_ = 0;  ///< triangles of the shapes read so far
 };
 
 }  // namespace treefarm::mitsuba

@@ -14,12 +14,12 @@ namespace {
 constexpr std::string_view kShapes[] = {"obj",    "ply",  "serialized", "rectangle",  "cube",
                                         "sphere", "disk", "cylinder",   "shapegroup", "instance"};
 
-/// A parallelogram by its centre and the half edges along which u and v grow.
+/// Parallelogram: centre, and half edges along which u and v increase.
 struct Patch {
     Vec3 center, half_u, half_v;
 };
 
-/// A mesh of flat faces whose fronts are where half_u x half_v points, or half_v x half_u if `turned`. They stay on the
+/// Mesh of flat faces whose fronts are where half_u x half_v points, or half_v x half_u if `turned`. Fronts stay on the
 /// same side of the object under a mirroring transformation.
 Mesh mesh_of_patches(std::span<const Patch> patches, bool turned, Properties& properties) {
     const Matrix to_world = properties.transform("to_world");
@@ -40,13 +40,14 @@ Mesh mesh_of_patches(std::span<const Patch> patches, bool turned, Properties& pr
     return mesh;
 }
 
-/// The square from (-1, -1, 0) to (1, 1, 0), front towards +z.
+/// Reads the square from (-1, -1, 0) to (1, 1, 0), front towards +z.
 Mesh read_rectangle(Properties& properties) {
     const Patch patch = {Vec3(0.0f), Vec3(1, 0, 0), Vec3(0, 1, 0)};
     return mesh_of_patches(std::span(&patch, 1), false, properties);
 }
 
-/// The cube from (-1, -1, -1) to (1, 1, 1), front outside. Texture coordinates as in Mitsuba 0.6 and 3 (cube.cpp).
+/// Reads the cube from (-1, -1, -1) to (1, 1, 1), front outside. Texture coordinates as in Mitsuba 0.6 and 3
+/// (cube.cpp).
 Mesh read_cube(Properties& properties) {
     const Vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
     const std::array<Patch, 6> patches = {{{-y, z, x}, {y, -x, -z}, {x, y, -z}, {z, y, x}, {-x, y, z}, {-z, -y, x}}};

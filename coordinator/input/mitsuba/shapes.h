@@ -8,8 +8,8 @@
 
 namespace treefarm::mitsuba {
 
-/// The geometry of a shape element in world space: a mesh or an analytic shape. Fronts are where the version of
-/// Mitsuba has them that the file is written for. Other shapes throw InputError, or give nothing when lenient.
+/// Geometry of a shape element in world space: a mesh or an analytic shape. Fronts are those of the version of Mitsuba
+/// that the file is written for. Other shapes throw InputError, or give nothing when lenient.
 std::optional<decltype(Shape::geometry)> read_geometry(Properties& properties, Diagnostics& diagnostics);
 
 }  // namespace treefarm::mitsuba

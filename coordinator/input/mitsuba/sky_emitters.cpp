@@ -19,10 +19,10 @@ struct SkySettings {
     bool of_mitsuba_3 = false;
     double turbidity = 3.0;
     Rgb64 albedo = Rgb64(0.0);  ///< of the ground
-    double stretch = 1.0;       ///< from 1 (the upper half) to 2 (all directions)
-    bool extend = false;        ///< the horizon's radiance below it, fading
+    double stretch = 1.0;       ///< extent of the sky, from 1 (the upper half) to 2 (all directions)
+    bool extend = false;        ///< the horizon's radiance continues below it, fading
     double sky_scale = 1.0, sun_scale = 1.0;
-    double sun_radius_scale = 1.0;  ///< at the same irradiance
+    double sun_radius_scale = 1.0;  ///< factor on the sun's radius at constant irradiance
     int resolution = 512;           ///< pixels around the horizon; half as many from pole to pole
     SkyAngles position;             ///< of the sun
 };
@@ -43,7 +43,7 @@ int integer_within(Properties& properties, const char* name, int otherwise, int 
     return static_cast<int>(value);
 }
 
-/// The direction in the frame of the environment's image: y up, u from -z over x.
+/// Direction in the frame of the environment's image: y up, u from -z over x.
 Vec64 direction_of(const SkyAngles& angles) {
     const double sine = std::sin(angles.zenith);
     return {std::sin(angles.azimuth) * sine, std::cos(angles.zenith), -std::cos(angles.azimuth) * sine};
@@ -117,7 +117,7 @@ SkySettings read_settings(Properties& properties, const EnvironmentEmitter& fram
 
 void paint_sky(const SkySettings& settings, TextureImage& image) {
     const HosekWilkieSky model(settings.turbidity, settings.albedo, M_PI / 2.0 - settings.position.zenith);
-    // What either version takes for the integral of the CIE 1931 ybar over the wavelength, nm.
+    // Integral of the CIE 1931 ybar over the wavelength in nm, as used by each version.
     const double per_nm = 1.0 / (settings.of_mitsuba_3 ? 106.7502593994140625 : 106.856980);
     const Vec64 sun = direction_of(settings.position);
     for (int y = 0; y < image.height; ++y) {
@@ -144,8 +144,8 @@ void paint_sky(const SkySettings& settings, TextureImage& image) {
     }
 }
 
-/// Puts a disk of the given radius (radians) into the image so that its irradiance, facing it, is `irradiance`: pixels
-/// get the share of it that falls on them.
+/// Adds a disk of `radius` (radians) to the image such that its irradiance on a facing plane is `irradiance`; each
+/// pixel gets the share that falls on it.
 void paint_sun(const SkyAngles& position, double radius, const Rgb64& irradiance, TextureImage& image) {
     // Points of equal solid angle on the disk, in a spiral: more than enough for every pixel that it touches.
     const double cos_radius = std::cos(radius);
@@ -173,7 +173,7 @@ void paint_sun(const SkyAngles& position, double radius, const Rgb64& irradiance
     }
 }
 
-/// Irradiance of the sun on a plane that faces it, W / (m^2 nm), by the model of the version that the file is for.
+/// Irradiance of the sun on a plane facing it, W / (m^2 nm), by the model of the version that the file is for.
 Rgb64 sun_irradiance(const SkySettings& settings) {
     if (settings.of_mitsuba_3)
         return hosek_wilkie_sun(settings.turbidity, M_PI / 2.0 - settings.position.zenith) * settings.sun_scale;
@@ -182,7 +182,7 @@ Rgb64 sun_irradiance(const SkySettings& settings) {
 }
 
 /// Axes of the image: version 0.6 has y up, north at -z and east at x; version 3 has z up, south at x and west at y
-/// (its sun_coordinates turns the azimuth by pi, though its page says that x is north).
+/// (its sun_coordinates turns the azimuth by pi, though its documentation says that x is north).
 EnvironmentEmitter read_frame(Properties& properties) {
     EnvironmentEmitter frame = read_environment_axes(properties);
     if (properties.element().version < 2) return frame;

@@ -7,9 +7,9 @@
 
 namespace treefarm::mitsuba {
 
-/// Adds the emitters of <emitter type="sky">, "sun" or "sunsky": an image of the sky with the sun's disk in it, and for
-/// a sun without extent a directional emitter. The sky is Hosek and Wilkie's; the sun is Preetham's in files of version
-/// 0.x, as in Mitsuba 0.6, and Hosek and Wilkie's later, as in Mitsuba 3.
+/// Adds the emitters of <emitter type="sky">, "sun" or "sunsky": an image of the sky with the sun's disk in it, and a
+/// directional emitter for a sun without extent. The sky is Hosek and Wilkie's. The sun is Preetham's in files of
+/// version 0.x, as in Mitsuba 0.6, and Hosek and Wilkie's in later ones, as in Mitsuba 3.
 void read_sky(Properties& properties, Scene& scene, TextureReader& textures);
 
 }  // namespace treefarm::mitsuba

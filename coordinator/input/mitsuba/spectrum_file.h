@@ -8,8 +8,8 @@
 
 namespace treefarm::mitsuba {
 
-/// A file of "wavelength value" per line, # before comments (.spd). Throws InputError: missing, longer than 100,000
-/// lines, a line that is no pair of numbers, wavelengths that do not rise, fewer than two.
+/// Spectrum from a file of "wavelength value" per line, with # before comments (.spd). Throws InputError if the file is
+/// missing, has more than 100,000 lines, a malformed line, wavelengths that do not increase, or fewer than two.
 SpectrumSamples read_spectrum_file(const std::filesystem::path& path, const Location& asked_from);
 
 }  // namespace treefarm::mitsuba

@@ -7,9 +7,9 @@
 
 namespace treefarm::mitsuba {
 
-/// The colour of an object of Mitsuba 2 and 3 that stands for a spectrum: uniform, rawconstant, srgb, d65 (without a
-/// texture inside), regular, irregular, blackbody. Nothing for other types. As in Mitsuba's RGB variants where these
-/// know the plugin; regular, irregular and blackbody, which only its spectral ones do, become Rgb like lists.
+/// Colour of an object of Mitsuba 2 and 3 that stands for a spectrum: uniform, rawconstant, srgb, d65 (without a
+/// texture inside), regular, irregular, blackbody. Empty for other types. As in Mitsuba's RGB variants if these have
+/// the plugin; regular, irregular and blackbody exist in spectral variants only and become Rgb like lists.
 std::optional<Rgb> read_spectrum_plugin(Properties& properties, ColorUse use, Diagnostics& diagnostics);
 
 }  // namespace treefarm::mitsuba

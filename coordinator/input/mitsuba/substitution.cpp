@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kMaxAttributeBytes = std::size_t{1} << 24;
 constexpr std::size_t kMaxReplacedBytes = std::size_t{1} << 26;
 
-/// A name of the scene that is near, else what may have been meant.
+/// Cure for an unused name: a similar name of the scene, or another guess.
 std::string cure_of_unused(const std::string& name, const std::string& value, const std::vector<std::string>& used) {
     if ((name == "width" || name == "height") && std::find(used.begin(), used.end(), name) == used.end())
         return "the image's " + name + " is --set image." + name + "=" + value;

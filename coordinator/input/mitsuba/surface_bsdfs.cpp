@@ -24,7 +24,7 @@ class SurfaceReader {
         : properties_(properties), textures_(textures), document_(document), diagnostics_(diagnostics) {}
 
     Bsdf diffuse() {
-        // Version 0.6 knows it by both names.
+        // Version 0.6 accepts both names.
         const bool long_name = properties_.has("diffuse_reflectance") ||
                                properties_.named_child("texture", "diffuse_reflectance") != nullptr;
         return DiffuseMaterial{reflectance(long_name ? "diffuse_reflectance" : "reflectance", 0.5f)};
@@ -85,7 +85,7 @@ class SurfaceReader {
         return plastic;
     }
 
-    /// What it coats, the reader of materials puts into it.
+    /// Reads a coating; the reader of materials adds the coated material.
     Bsdf coating(bool rough) {
         CoatingMaterial coating;
         coating.eta = read_relative_index(properties_, "bk7");
@@ -97,7 +97,7 @@ class SurfaceReader {
         return coating;
     }
 
-    /// Mitsuba 0.6 knows the reflectance by two names.
+    /// Reads rough diffuse; Mitsuba 0.6 accepts two names of the reflectance.
     Bsdf rough_diffuse() {
         RoughDiffuseMaterial rough;
         rough.reflectance = reflectance(has_input("reflectance") ? "reflectance" : "diffuse_reflectance", 0.5f);
@@ -108,7 +108,7 @@ class SurfaceReader {
 
     Bsdf diffuse_transmitter() { return DiffuseTransmitterMaterial{reflectance("transmittance", 0.5f)}; }
 
-    /// Depths are coefficients times the thickness; a medium stands for those that are not given.
+    /// Reads a thin layer. Depths are coefficients times the thickness; missing ones come from a medium.
     Bsdf thin_layer() {
         ThinLayerMaterial layer;
         const bool by_extinction = has_input("sigma_t") || has_input("albedo");
@@ -175,7 +175,7 @@ class SurfaceReader {
         principled.clearcoat = number("clearcoat", 0.0f);
         principled.clearcoat_gloss = number("clearcoat_gloss", 0.0f);
         principled.eta = principled_eta(principled.transmits());
-        // How directions are drawn does not change the image.
+        // The sampling of directions does not change the image.
         properties_.ignore(
             {"main_specular_sampling_rate", "clearcoat_sampling_rate", "diffuse_reflectance_sampling_rate"});
         return principled;
@@ -193,14 +193,15 @@ class SurfaceReader {
         thin.flatness = number("flatness", 0.0f);
         thin.diff_trans = number("diff_trans", 0.0f);
         thin.eta = number("eta", 1.5f);
-        // How directions are drawn does not change the image.
+        // The sampling of directions does not change the image.
         properties_.ignore({"specular_reflectance_sampling_rate", "specular_transmittance_sampling_rate",
                             "diffuse_reflectance_sampling_rate", "diffuse_transmittance_sampling_rate"});
         return thin;
     }
 
   private:
-    /// From eta or specular. Where light passes it may not be 1: Mitsuba moves it away as far.
+    /// Index of refraction from eta or specular. With transmission it must not be 1; like Mitsuba, it is then moved
+    /// away slightly.
     float principled_eta(bool transmits) {
         if (properties_.has("eta") && properties_.has("specular"))
             throw InputError(properties_.where("specular"), "both eta and specular are given", "keep one of them");
@@ -227,7 +228,7 @@ class SurfaceReader {
                 nearest.empty() ? otherwise : "did you mean " + in_quotes(nearest) + "?"};
     }
 
-    /// The one that is named, in Mitsuba 0.6's unit: a hundred times what it is per millimetre.
+    /// The named medium, in Mitsuba 0.6's unit: a hundred times the value per millimetre.
     ScatteringMedium scattering_medium() {
         const std::string name = properties_.text("material", "skin1");
         auto medium = find_medium(lower(name));
@@ -314,7 +315,7 @@ class SurfaceReader {
         } else {
             roughness.alpha_u = roughness.alpha_v = alpha("alpha", 0.1f);
         }
-        // How directions are drawn does not change the image.
+        // The sampling of directions does not change the image.
         properties_.ignore({"sample_visible"});
         return roughness;
     }

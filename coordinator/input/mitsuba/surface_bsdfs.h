@@ -10,12 +10,12 @@
 
 namespace treefarm::mitsuba {
 
-/// The BSDFs that are a kind of surface, with the defaults of the version of the format; a coating yet without what it
-/// coats. Nothing for other types.
+/// Reads a BSDF that is a kind of surface, with the defaults of the format's version; a coating is returned without its
+/// coated material. Empty for other types.
 std::optional<decltype(Material::bsdf)> read_surface_bsdf(Properties& properties, TextureReader& textures,
                                                           const SceneDocument& document, Diagnostics& diagnostics);
 
-/// The types that read_surface_bsdf() knows.
+/// Types that read_surface_bsdf() supports.
 std::vector<std::string_view> surface_bsdf_names();
 
 }  // namespace treefarm::mitsuba

@@ -22,7 +22,7 @@ Wrap read_wrap(const std::string& word, const Location& where) {
     throw InputError(where, "unknown wrap mode " + in_quotes(word), "use repeat, mirror, clamp, zero or one");
 }
 
-/// Scale and offset of version 0.6, or the matrix of the later ones.
+/// Scale and offset of version 0.6, or the matrix of later versions.
 UvTransform read_uv_transform(Properties& properties) {
     UvTransform uv;
     if (properties.element().version >= 2) {
@@ -133,7 +133,7 @@ ColorInput TextureReader::convert(const XmlElement& texture, const Use& use) {
     } else if (const auto constant = read_constant(properties, use)) {
         input = *constant;
     } else {
-        // Those that stand for spectra came with version 2.
+        // Objects for spectra came with version 2.
         const auto known_types =
             std::span(kTextures).first(properties.element().version < 2 ? 3 : std::size(kTextures));
         diagnostics_.unsupported(texture.where, "the texture " + in_quotes(type) + " is not available in this version",
@@ -205,12 +205,12 @@ ColorInput TextureReader::convert_bitmap(Properties& properties, const Use& use)
 ColorInput TextureReader::convert_checkerboard(Properties& properties, const Use& use) {
     CheckerboardTexture board;
     for (const auto& [name, color] : {std::pair("color0", &board.color0), std::pair("color1", &board.color1)}) {
-        // Mitsuba 0.6 scales a board that exceeds 1 as a whole (validate_materials.cpp).
+        // Mitsuba 0.6 scales a checkerboard that exceeds 1 as a whole (validate_materials.cpp).
         const bool scales = properties.element().version < 2 && use.color == ColorUse::reflectance;
         *color = constant(properties, name, *color, scales ? ColorUse::coefficient : use.color);
     }
     board.uv = read_uv_transform(properties);
-    // Where Mitsuba 3 asks a board for one number (eval_1 in its checkerboard.cpp), the squares are exchanged.
+    // If Mitsuba 3 evaluates a checkerboard as one number (eval_1 in its checkerboard.cpp), the squares are exchanged.
     if (properties.element().version >= 2 && use.color == ColorUse::coefficient && !use.data)
         std::swap(board.color0, board.color1);
     if (properties.element().version < 2) properties.ignore({"filter_type", "cache"});

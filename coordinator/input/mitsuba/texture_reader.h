@@ -9,37 +9,37 @@
 
 namespace treefarm::mitsuba {
 
-/// Turns texture elements into textures of the scene; the same element always becomes the same texture.
+/// Turns texture elements into textures of the scene; equal elements become the same texture.
 class TextureReader {
   public:
     TextureReader(Scene& scene, const SceneDocument& document, Diagnostics& diagnostics)
         : scene_(scene), document_(document), diagnostics_(diagnostics) {}
 
-    /// The property `name`: a colour, or a texture of that name.
+    /// Colour from the property `name`: a colour, or a texture.
     ColorInput color(Properties& properties, const std::string& name, const Rgb& otherwise, ColorUse use);
 
-    /// The property `name` where textures cannot be looked up: one throws InputError or, when lenient, its factor
-    /// counts.
+    /// Colour from the property `name` for uses without textures: a texture throws InputError or, when lenient, only
+    /// its factor is used.
     Rgb constant(Properties& properties, const std::string& name, const Rgb& otherwise, ColorUse use);
 
-    /// The property `name`: a number, a colour (its mean), or a texture of that name.
+    /// Number from the property `name`: a number, a colour (its mean), or a texture.
     FloatInput number(Properties& properties, const std::string& name, float otherwise);
 
-    /// A texture whose values are data (displacements, normals): plain, even where integers usually are sRGB, unless
-    /// the element says otherwise.
+    /// Texture with values that are data (displacements, normals): integers are linear, not sRGB, unless the element
+    /// says otherwise.
     ColorInput data(const XmlElement& texture, bool signed_values);
 
-    /// Width over height of a texture's pixels; 1 where it has none.
+    /// Width over height of a texture's pixels; 1 for textures without pixels.
     double aspect(const ColorInput& input) const;
 
-    /// An image of three linear float channels, for the environment.
+    /// Image of three linear float channels, for the environment.
     std::int32_t environment_image(Properties& properties);
 
-    /// The images of the textures.
+    /// Images of the textures.
     const ImageRequests& images() const { return images_; }
 
   private:
-    /// How the values of a texture are used.
+    /// Use of a texture's values.
     struct Use {
         ColorUse color = ColorUse::reflectance;
         bool data = false;
@@ -49,7 +49,7 @@ class TextureReader {
     };
     ColorInput read(const XmlElement& texture, const Use& use);
     ColorInput convert(const XmlElement& texture, const Use& use);
-    /// An object that stands for a spectrum; nothing for other types.
+    /// Colour of an object that stands for a spectrum; empty for other types.
     std::optional<ColorInput> read_constant(Properties& properties, const Use& use);
     ColorInput convert_bitmap(Properties& properties, const Use& use);
     ColorInput convert_checkerboard(Properties& properties, const Use& use);
@@ -64,7 +64,7 @@ class TextureReader {
     std::map<std::pair<const XmlElement*, Use>, ColorInput> known_;
 };
 
-/// The file that a property names: relative to the file that the element stands in. InputError if it is missing.
+/// File named by a property, relative to the element's file. Throws InputError if it is missing.
 std::filesystem::path file_of(Properties& properties);
 
 }  // namespace treefarm::mitsuba

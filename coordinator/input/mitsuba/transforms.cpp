@@ -10,7 +10,7 @@ namespace {
 
 using Vec3d = Imath::V3d;
 
-/// x, y and z, or all of them from `value`.
+/// Reads x, y and z, or all of them from `value`.
 Vec3d read_xyz(const XmlElement& step, double otherwise) {
     if (const std::string* value = step.find("value")) {
         if (step.find("x") || step.find("y") || step.find("z"))
@@ -50,7 +50,7 @@ Matrix scaling(const Vec3d& v) {
     return from_axes({v.x, 0, 0}, {0, v.y, 0}, {0, 0, v.z}, {0, 0, 0});
 }
 
-/// Rodrigues' rotation formula: the images of the three axes. Whole quarter turns are exact.
+/// Rodrigues' rotation formula: images of the three axes. Exact for whole quarter turns.
 Matrix rotation(const XmlElement& step) {
     Vec3d axis = read_xyz(step, 0.0);
     if (!(axis.length() > 0.0)) throw InputError(step.where, "<rotate> has no axis", "give one, for instance y=\"1\"");
@@ -66,7 +66,7 @@ Matrix rotation(const XmlElement& step) {
     return from_axes(rotated({1, 0, 0}), rotated({0, 1, 0}), rotated({0, 0, 1}), {0, 0, 0});
 }
 
-/// 16 numbers row by row, column vectors; or the 9 of the linear part.
+/// Reads 16 numbers row by row, for column vectors; or the 9 of the linear part.
 Matrix matrix_step(const XmlElement& step) {
     const std::vector<double> m = numbers_of(step.require("value"), step.where);
     if (m.size() != 16 && m.size() != 9)
@@ -125,7 +125,7 @@ Matrix read_step(const XmlElement& step) {
                      "use translate, rotate, scale, matrix or lookat");
 }
 
-/// Zero where the three axes lie in a plane, whatever their lengths are.
+/// Whether the three axes are in a plane, whatever their lengths.
 bool is_singular(const Matrix& m) {
     const Vec3d x(m[0][0], m[0][1], m[0][2]), y(m[1][0], m[1][1], m[1][2]), z(m[2][0], m[2][1], m[2][2]);
     const double volume = std::abs(x.normalized().dot(y.normalized().cross(z.normalized())));

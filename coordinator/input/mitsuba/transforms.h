@@ -6,12 +6,12 @@
 
 namespace treefarm::mitsuba {
 
-/// An affine map in double precision. Row vectors, as Imath has them: a point p goes to p * matrix, so what happens
-/// later stands further right.
+/// Affine map in double precision, for row vectors as in Imath: a point p becomes p * matrix, so later steps are
+/// further right.
 using Matrix = Imath::M44d;
 
-/// The matrix of a <transform>: translate, rotate, scale, matrix and lookat (lookAt), the first applied first. What is
-/// not affine, not finite or not invertible throws InputError; `owner` names the object for that message.
+/// Matrix of a <transform>: translate, rotate, scale, matrix and lookat (lookAt), applied in document order. Throws
+/// InputError if it is not affine, finite and invertible; `owner`: name of the object for that message.
 Matrix read_transform(const XmlElement& element, const std::string& owner);
 
 Vec3 transform_point(const Matrix& matrix, const Vec3& point);
@@ -27,10 +27,10 @@ class NormalTransform {
     Matrix inverse_;
 };
 
-/// The map turns right-handed into left-handed.
+/// Whether the map turns right-handed into left-handed.
 bool is_mirroring(const Matrix& matrix);
 
-/// The factor by which lengths grow, if it is the same in all directions (relative to its square); otherwise 0.
+/// Factor on lengths if it is equal in all directions (tolerance relative to its square); otherwise 0.
 double uniform_scale(const Matrix& matrix, double tolerance = 1e-4);
 
 }  // namespace treefarm::mitsuba

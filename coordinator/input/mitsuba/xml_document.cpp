@@ -15,7 +15,7 @@ constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{256} << 20;
 constexpr int kMaxDepth = 100;
 constexpr std::size_t kMaxAttributes = 100;
 
-/// Byte offsets to lines and columns.
+/// Maps byte offsets to lines and columns.
 class LineTable {
   public:
     explicit LineTable(const std::string& text) {

@@ -5,7 +5,7 @@
 
 namespace treefarm {
 
-/// Emits `radiance` from the front of a shape, in every direction of the hemisphere.
+/// Emission of `radiance` from the front of a shape, equal in all directions of the hemisphere.
 struct AreaEmitter {
     ColorInput radiance{Rgb(1.0f)};  ///< W / (m^2 sr), per channel
     std::int32_t shape = kNone;

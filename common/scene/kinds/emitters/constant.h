@@ -5,7 +5,7 @@
 
 namespace treefarm {
 
-/// Emits `radiance` from infinity, in every direction.
+/// Emission of `radiance` from infinity, equal in all directions.
 struct ConstantEmitter {
     Rgb radiance{1.0f};
 

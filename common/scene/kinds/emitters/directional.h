@@ -7,8 +7,8 @@ namespace treefarm {
 
 /// Parallel light.
 struct DirectionalEmitter {
-    Vec3 direction{0.0f, 0.0f, 1.0f};  ///< unit, along which the light travels
-    Rgb irradiance{1.0f};              ///< W / m^2 on a surface that faces it
+    Vec3 direction{0.0f, 0.0f, 1.0f};  ///< unit length, along which the light travels
+    Rgb irradiance{1.0f};              ///< W / m^2 on a surface perpendicular to it
 
     static constexpr EmitterTraits kTraits{LightType::delta, "directional", "directional emitter"};
     std::optional<LightCone> cone() const { return std::nullopt; }

@@ -7,13 +7,13 @@
 
 namespace treefarm {
 
-/// A distant sphere of radiance. The direction d, turned into its frame as (d . x_axis, d . y_axis, d . z_axis), lies
-/// at u = atan2(x, -z) / (2 pi) and v = acos(y) / pi of the image: v runs down from the pole y, u repeats.
+/// Radiance of a distant sphere. The direction d, in the emitter's frame (d . x_axis, d . y_axis, d . z_axis), is at u
+/// = atan2(x, -z) / (2 pi) and v = acos(y) / pi of the image: v runs down from the pole y, u repeats.
 struct EnvironmentEmitter {
     std::int32_t image = kNone;  ///< index in Scene::images; three linear channels
     float scale = 1.0f;
-    Vec3 x_axis{1.0f, 0.0f, 0.0f}, y_axis{0.0f, 1.0f, 0.0f}, z_axis{0.0f, 0.0f, 1.0f};  ///< unit, at right angles
-    /// The centres of the first and the last row of pixels lie on the poles (Mitsuba 2 and 3), not their edges (0.6).
+    Vec3 x_axis{1.0f, 0.0f, 0.0f}, y_axis{0.0f, 1.0f, 0.0f}, z_axis{0.0f, 0.0f, 1.0f};  ///< orthonormal
+    /// The centres of the first and the last row of pixels are at the poles (Mitsuba 2 and 3), not their edges (0.6).
     bool rows_at_poles = false;
 
     static constexpr EmitterTraits kTraits{LightType::environment, "environment_map", "environment map"};

@@ -7,14 +7,15 @@
 
 namespace treefarm {
 
-/// A point that throws a picture along `axis`, as Mitsuba's projector: whatever its distance z, a plane across the axis
-/// has the irradiance of the picture over z^2.
+/// A point that projects a picture along `axis`, like Mitsuba's projector: on a plane across the axis at any distance
+/// z, the irradiance is that of the picture over z^2.
 struct ProjectorEmitter {
     Vec3 position{0.0f};
-    Vec3 axis{0.0f, 0.0f, 1.0f};                              ///< unit, away from the emitter
-    Vec3 x_axis{1.0f, 0.0f, 0.0f}, y_axis{0.0f, 1.0f, 0.0f};  ///< unit, at right angles: along which u and v rise
-    float half_width = 1.0f, half_height = 1.0f;              ///< of the picture on the plane at distance 1, above 0
-    ColorInput irradiance{Rgb(1.0f)};                         ///< W / m^2 on that plane
+    Vec3 axis{0.0f, 0.0f, 1.0f};  ///< unit length, away from the emitter
+    Vec3 x_axis{1.0f, 0.0f, 0.0f},
+        y_axis{0.0f, 1.0f, 0.0f};                 ///< unit length, at right angles: directions of increasing u and v
+    float half_width = 1.0f, half_height = 1.0f;  ///< of the picture on the plane at distance 1, above 0
+    ColorInput irradiance{Rgb(1.0f)};             ///< W / m^2 on that plane
 
     static constexpr EmitterTraits kTraits{LightType::delta, "projector", "projector emitter"};
     std::optional<LightCone> cone() const {

@@ -5,17 +5,17 @@
 
 namespace treefarm {
 
-/// A point that shines along `axis`: fully within `beam` of it, not at all beyond `cutoff`, and in between linearly in
-/// the angle. A texture is projected like a slide: its unit square fills the square about the circle in which the cone
-/// of `cutoff` cuts a plane across the axis.
+/// A point that emits around `axis`: fully within the angle `beam`, not at all beyond `cutoff`, and linearly in the
+/// angle in between. A texture is projected like a slide: its unit square fills the square around the circle in which
+/// the cone of `cutoff` cuts a plane across the axis.
 struct SpotEmitter {
     Vec3 position{0.0f};
-    Vec3 axis{0.0f, 0.0f, 1.0f};   ///< unit, away from the emitter
+    Vec3 axis{0.0f, 0.0f, 1.0f};   ///< unit length, away from the emitter
     Rgb intensity{1.0f};           ///< W / sr, on the axis
     float cutoff = 0.3490659f;     ///< radians, above 0, at most pi
     float beam = 0.2617994f;       ///< radians, 0 to cutoff
     std::int32_t texture = kNone;  ///< factor on the intensity; then cutoff is below pi / 2
-    /// Unit, at right angles to `axis` and each other: along which u and v of the texture rise.
+    /// Unit vectors at right angles to `axis` and each other: directions of increasing u and v of the texture.
     Vec3 x_axis{1.0f, 0.0f, 0.0f}, y_axis{0.0f, 1.0f, 0.0f};
 
     static constexpr EmitterTraits kTraits{LightType::delta, "spot", "spot emitter"};

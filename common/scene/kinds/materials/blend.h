@@ -6,12 +6,12 @@
 
 namespace treefarm {
 
-/// (1 - weight) * first + weight * second. Its lobes are those of its parts.
+/// Blend (1 - weight) * first + weight * second. Its lobes are those of its parts.
 struct BlendMaterial {
     FloatInput weight{0.5f};
-    std::int32_t first = kNone, second = kNone;  ///< indices in Scene::materials, below this material's own
+    std::int32_t first = kNone, second = kNone;  ///< indices in Scene::materials, smaller than this material's own
 
-    /// Whether its sides are those of its parts: the back of a blend is the blend of their backs.
+    /// Whether the sides are those of the parts: the back of a blend is the blend of their backs.
     static constexpr bool kSidesOfParts = true;
     Lobes lobes() const { return {}; }
     static void fields(auto& self, auto& visitor) {

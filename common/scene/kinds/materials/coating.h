@@ -5,16 +5,16 @@
 
 namespace treefarm {
 
-/// A dielectric coat, smooth or rough, over another material, as Mitsuba 0.6 has it (Weidlich and Wilkie 2007): light
-/// is refracted on its way in and out and absorbed in between; what the coat sends back to the material is lost.
+/// A dielectric coat, smooth or rough, over another material, as in Mitsuba 0.6 (Weidlich and Wilkie 2007): light is
+/// refracted on its way in and out and absorbed in between; light that the coat reflects back to the material is lost.
 struct CoatingMaterial {
-    float eta = 1.5042f;                         ///< of the coat over that of the outside
+    float eta = 1.5042f;                         ///< index of refraction of the coat over that of the outside
     ColorInput absorption{Rgb(0.0f)};            ///< optical depth of the coat along its normal, 0 or more
-    ColorInput specular_reflectance{Rgb(1.0f)};  ///< factor on what the coat reflects
+    ColorInput specular_reflectance{Rgb(1.0f)};  ///< factor on the coat's reflection
     Roughness roughness;                         ///< of the coat; isotropic
-    std::int32_t coated = kNone;                 ///< index in Scene::materials, below this material's own
+    std::int32_t coated = kNone;                 ///< index in Scene::materials, smaller than this material's own
 
-    /// The coat reflects on both sides; beneath it are the two sides of the other material.
+    /// The coat reflects on both sides; beneath it are both sides of the other material.
     static constexpr bool kSidesOfParts = true;
     static constexpr KindEffect kEffect{"coatings", "coated material"};
     Lobes lobes() const { return roughness.lobes(false); }

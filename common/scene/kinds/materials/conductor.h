@@ -5,11 +5,11 @@
 
 namespace treefarm {
 
-/// Metal: complex index of refraction eta + i k per channel, relative to what is outside. eta = 0, k = 1: a perfect
+/// Metal with a complex index of refraction eta + i k per channel, relative to the outside. eta = 0, k = 1: a perfect
 /// mirror.
 struct ConductorMaterial {
     Rgb eta{0.0f}, k{1.0f};
-    ColorInput specular_reflectance{Rgb(1.0f)};  ///< factor on what is reflected, in [0, 1]
+    ColorInput specular_reflectance{Rgb(1.0f)};  ///< factor on the reflection, in [0, 1]
     Roughness roughness;
 
     Lobes lobes() const { return roughness.lobes(false); }

@@ -5,8 +5,7 @@
 
 namespace treefarm {
 
-/// What a dielectric reflects of what comes from outside: a coat over black, in place of glass that is not to be
-/// simulated.
+/// Reflection of a dielectric for light from outside, as a coat over black: replaces glass that is not simulated.
 inline PlasticMaterial reflection_alone(float eta, const ColorInput& reflectance, const Roughness& roughness) {
     PlasticMaterial coat;
     coat.eta = eta < 1.0f ? 1.0f / eta : eta;
@@ -17,9 +16,9 @@ inline PlasticMaterial reflection_alone(float eta, const ColorInput& reflectance
     return coat;
 }
 
-/// A boundary between two transparent media. Radiance is scaled by 1/eta^2 when it enters the denser one.
+/// Boundary between two transparent media. Radiance is scaled by 1/eta^2 when it enters the denser one.
 struct DielectricMaterial {
-    /// Index of refraction of the side against the normal over that of the normal's side, above 0.
+    /// Index of refraction of the side opposite to the normal over that of the normal's side, above 0.
     float eta = 1.5046f;
     ColorInput specular_reflectance{Rgb(1.0f)}, specular_transmittance{Rgb(1.0f)};
     Roughness roughness;

@@ -6,13 +6,13 @@
 
 namespace treefarm {
 
-/// A sheet whose two sides are alike, and which lets light through evenly in all directions: paper held before a lamp
-/// (Mitsuba 0.6's difftrans).
+/// A sheet with two equal sides that transmits light evenly in all directions, like paper in front of a lamp (Mitsuba
+/// 0.6's difftrans).
 struct DiffuseTransmitterMaterial {
-    ColorInput transmittance{Rgb(0.5f)};  ///< the part of the light that passes, per channel, in [0, 1]
+    ColorInput transmittance{Rgb(0.5f)};  ///< transmitted part of the light, per channel, in [0, 1]
 
     Lobes lobes() const { return {.glossy_transmission = true}; }
-    /// Nothing is reflected: what would pass is lost.
+    /// Opaque form: nothing is reflected, since only transmission exists.
     DiffuseMaterial opaque() const { return {Rgb(0.0f)}; }
     static void fields(auto& self, auto& visitor) { visitor.fraction("transmittance", self.transmittance); }
 };

@@ -5,7 +5,7 @@
 
 namespace treefarm {
 
-/// Nothing is there: light passes straight on.
+/// No surface: light passes straight through.
 struct NullMaterial {
     Lobes lobes() const { return {.null = true}; }
     static void fields(auto&, auto&) {}

@@ -6,7 +6,7 @@
 
 namespace treefarm {
 
-/// Phong's model, modified to be reciprocal and to keep energy (Lafortune and Willems 1994).
+/// Phong's model, modified to be reciprocal and energy-conserving (Lafortune and Willems 1994).
 struct PhongMaterial {
     ColorInput diffuse_reflectance{Rgb(0.5f)}, specular_reflectance{Rgb(0.2f)};  ///< their sum at most 1
     FloatInput exponent{30.0f};

@@ -11,8 +11,8 @@ struct PlasticMaterial {
     ColorInput diffuse_reflectance{Rgb(0.5f)}, specular_reflectance{Rgb(1.0f)};
     bool nonlinear = false;  ///< colour shifts by interreflection inside the coat
     Roughness roughness;     ///< of the coat; isotropic
-    /// A rough coat sends back to the base what its facets reflect once (Mitsuba 2 and 3), and the rest of what it does
-    /// not let out is lost; otherwise it sends back all of that (0.6).
+    /// A rough coat returns to the base only the light that its facets reflect once (Mitsuba 2 and 3), and the rest of
+    /// the light that does not leave is lost; otherwise it returns all of that (0.6).
     bool single_return = false;
 
     static constexpr bool kCoated = true;
@@ -21,7 +21,7 @@ struct PlasticMaterial {
         lobes.diffuse = true;
         return lobes;
     }
-    /// What is reflected back and forth between such a base and its coat would grow without end.
+    /// Whether reflectances above 1 must be refused: interreflection between base and coat would grow without end.
     bool needs_limit() const { return nonlinear; }
     static void fields(auto& self, auto& visitor) {
         visitor.eta(self.eta);

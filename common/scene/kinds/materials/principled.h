@@ -6,7 +6,7 @@
 
 namespace treefarm {
 
-/// Disney's principled BSDF (Burley 2012 and 2015), as Mitsuba 3 has it: a diffuse base with retroreflection, a flat
+/// Disney's principled BSDF (Burley 2012 and 2015), as in Mitsuba 3: a diffuse base with retroreflection, a flat
 /// subsurface look and sheen, a specular lobe that is dielectric, tinted or metallic, a clear coat, and refraction.
 struct PrincipledMaterial {
     ColorInput base_color{Rgb(0.5f)};
@@ -14,12 +14,12 @@ struct PrincipledMaterial {
     FloatInput anisotropic{0.0f}, metallic{0.0f}, spec_trans{0.0f}, spec_tint{0.0f};
     FloatInput sheen{0.0f}, sheen_tint{0.0f}, flatness{0.0f};
     FloatInput clearcoat{0.0f}, clearcoat_gloss{0.0f};
-    float eta = 1.5f;  ///< of the inside over the outside; not 1 where light passes
+    float eta = 1.5f;  ///< index of refraction of the inside over the outside; not 1 with transmission
 
     bool transmits() const { return spec_trans.varies() || spec_trans.value > 0.0f; }
     static constexpr KindEffect kEffect{"principled", "principled material"};
     Lobes lobes() const { return {.diffuse = true, .glossy_reflection = true, .glossy_transmission = transmits()}; }
-    /// What would be let through is lost: the base is as much darker.
+    /// Opaque form: transmitted light is lost, and the base is darker by that share.
     PrincipledMaterial opaque() const {
         PrincipledMaterial material = *this;
         if (!spec_trans.varies()) material.base_color.value *= 1.0f - spec_trans.value;

@@ -6,15 +6,15 @@
 
 namespace treefarm {
 
-/// Disney's principled BSDF of a thin sheet (Burley 2015), as Mitsuba 3 has it: light is reflected, and passes straight
-/// on, by rough facets or diffusely. Both sides are alike.
+/// Disney's principled BSDF of a thin sheet (Burley 2015), as in Mitsuba 3: light is reflected or passes straight
+/// through, by rough facets or diffusely. Both sides are equal.
 struct PrincipledThinMaterial {
     ColorInput base_color{Rgb(0.5f)};
-    FloatInput roughness{0.5f};  ///< alpha is its square; of what passes it is scaled by the index of refraction
+    FloatInput roughness{0.5f};  ///< alpha is its square; for transmission scaled by the index of refraction
     FloatInput anisotropic{0.0f}, spec_trans{0.0f}, spec_tint{0.0f};
     FloatInput sheen{0.0f}, sheen_tint{0.0f}, flatness{0.0f};
-    FloatInput diff_trans{0.0f};  ///< 0 to 2: twice the share of diffuse light that passes
-    FloatInput eta{1.5f};         ///< of the sheet over that of what is around it
+    FloatInput diff_trans{0.0f};  ///< 0 to 2: twice the share of diffuse light that is transmitted
+    FloatInput eta{1.5f};         ///< index of refraction of the sheet over that of its surroundings
 
     static constexpr float kMostDiffTrans = 2.0f;
     bool transmits() const {
@@ -22,7 +22,8 @@ struct PrincipledThinMaterial {
     }
     static constexpr KindEffect kEffect{"principled_thin", "thin principled material"};
     Lobes lobes() const { return {.diffuse = true, .glossy_reflection = true, .glossy_transmission = transmits()}; }
-    /// What would be let through is lost, and what such a sheet's facets reflect with it: the base is as much darker.
+    /// Opaque form: transmitted light and the reflection of such a sheet's facets are lost, and the base is darker by
+    /// that share.
     PrincipledThinMaterial opaque() const {
         PrincipledThinMaterial material = *this;
         if (!spec_trans.varies()) material.base_color.value *= 1.0f - spec_trans.value;

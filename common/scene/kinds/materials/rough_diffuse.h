@@ -9,8 +9,8 @@ namespace treefarm {
 /// A surface of diffuse facets (Oren and Nayar 1994).
 struct RoughDiffuseMaterial {
     ColorInput reflectance{Rgb(0.5f)};  ///< albedo of the facets per channel, in [0, 1]
-    FloatInput alpha{0.2f};             ///< root mean square slope of the facets, as of rough metals
-    bool fast = false;                  ///< the paper's short form, without light from facet to facet
+    FloatInput alpha{0.2f};             ///< root mean square slope of the facets, as for rough metals
+    bool fast = false;                  ///< the paper's short form, without interreflection of facets
 
     static constexpr KindEffect kEffect{"rough_diffuse", "rough diffuse material"};
     Lobes lobes() const { return {.diffuse = true}; }

@@ -5,7 +5,7 @@
 
 namespace treefarm {
 
-/// A thin pane: reflections between its two surfaces summed up, transmission straight through.
+/// A thin pane: reflections between its two surfaces are summed, transmission is straight.
 struct ThinDielectricMaterial {
     float eta = 1.5046f;
     ColorInput specular_reflectance{Rgb(1.0f)}, specular_transmittance{Rgb(1.0f)};

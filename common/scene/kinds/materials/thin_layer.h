@@ -6,14 +6,14 @@
 
 namespace treefarm {
 
-/// A layer that scatters light once, with the index of refraction of what is around it (Hanrahan and Krueger 1993;
-/// Mitsuba 0.6's hk): milk glass, leaves, a stain. What scatters more often is lost.
+/// A layer that scatters light once, with the index of refraction of its surroundings (Hanrahan and Krueger 1993;
+/// Mitsuba 0.6's hk): milk glass, leaves, a stain. Light that would scatter more often is lost.
 struct ThinLayerMaterial {
     static constexpr float kMostCosine = 0.99f;
 
     ColorInput scattering{Rgb(1.0f)}, absorption{Rgb(1.0f)};  ///< optical depths along the normal, 0 or more
     FloatInput mean_cosine{0.0f};  ///< g of Henyey and Greenstein's phase function, above 0 forwards; [-0.99, 0.99]
-    bool passes = true;            ///< light gets through; otherwise what would is lost
+    bool passes = true;            ///< light is transmitted; otherwise that part is lost
 
     static constexpr KindEffect kEffect{"thin_layers", "thin layer"};
     Lobes lobes() const {

@@ -5,13 +5,12 @@
 
 namespace treefarm {
 
-/// The side of a cylinder, without caps. Texture coordinates: (azimuth from `meridian` over 2 pi, place along the
-/// axis).
+/// Side of a cylinder, without caps. Texture coordinates: (azimuth from `meridian` over 2 pi, position along the axis).
 struct Cylinder {
     Vec3 p0{0.0f}, p1{0.0f, 0.0f, 1.0f};
     float radius = 1.0f;
     bool flip_normals = false;        ///< normals point inwards
-    Vec3 meridian{1.0f, 0.0f, 0.0f};  ///< unit, at right angles to the axis
+    Vec3 meridian{1.0f, 0.0f, 0.0f};  ///< unit length, at right angles to the axis
     bool mirrored = false;            ///< the azimuth runs clockwise about the axis
 
     float length() const { return (p1 - p0).length(); }

@@ -5,10 +5,10 @@
 
 namespace treefarm {
 
-/// All shapes of a group, placed by a transform that can be inverted.
+/// All shapes of a group, placed by an invertible transform.
 struct Instance {
     std::int32_t group = kNone;
-    Imath::M44f to_world;  ///< of row vectors: p' = p * to_world
+    Imath::M44f to_world;  ///< for row vectors: p' = p * to_world
 
     Box3 box() const { return {}; }  ///< none of its own
     static void fields(auto& self, auto& visitor) {

@@ -8,9 +8,9 @@
 
 namespace treefarm {
 
-/// What a mesh says of each vertex or triangle for textures to show: "vertex_color", "face_color", "vertex_wear"...
+/// Values at each vertex or triangle for textures: "vertex_color", "face_color", "vertex_wear"...
 struct MeshAttribute {
-    std::string name;         ///< begins with "face_" if it is of triangles
+    std::string name;         ///< begins with "face_" for values of triangles
     std::vector<Rgb> values;  ///< linear; one per position, or per triangle; numbers are grey
 
     static bool is_of_faces(const std::string& name) { return name.starts_with("face_"); }
@@ -20,10 +20,10 @@ struct MeshAttribute {
 /// An indexed triangle mesh in world space (or its group's space).
 struct Mesh {
     std::vector<Vec3> positions;
-    std::vector<Vec3> normals;              ///< unit shading normals, one per position; empty: use the triangle's own
+    std::vector<Vec3> normals;              ///< unit shading normals, one per position; empty: geometric normals
     std::vector<Vec2> uvs;                  ///< one per position; empty: none
     std::vector<std::uint32_t> indices;     ///< three per triangle, counter-clockwise seen from the front
-    std::vector<MeshAttribute> attributes;  ///< after checks, only those that a texture asks for
+    std::vector<MeshAttribute> attributes;  ///< after validate_scene(), only those that a texture needs
 
     /// Adds an attribute without values.
     MeshAttribute& add_attribute(const std::string& name) {

@@ -8,7 +8,7 @@
 
 namespace treefarm {
 
-/// Whether two unit vectors are at right angles, as well as readers compute them. Vectors that are not finite are not.
+/// Whether two unit vectors are at right angles, within the rounding of readers. False for vectors that are not finite.
 inline bool at_right_angles(const Vec3& a, const Vec3& b) {
     return std::abs(dot(a, b)) <= 1e-3f;
 }
@@ -21,7 +21,7 @@ inline Vec3 ellipse_extent(const Vec3& u, const Vec3& v) {
     return extent;
 }
 
-/// The box that reaches so far from its center along each axis.
+/// Box around `center` with half the size `extent`.
 inline Box3 box_about(const Vec3& center, const Vec3& extent) {
     Box3 box;
     box.extendBy(center - extent);

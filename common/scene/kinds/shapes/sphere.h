@@ -5,13 +5,13 @@
 
 namespace treefarm {
 
-/// An analytic sphere. Its texture coordinates are (azimuth about `pole` from `meridian`, angle from `pole`), over 2 pi
-/// and pi.
+/// An analytic sphere. Texture coordinates: (azimuth about `pole` from `meridian` over 2 pi, angle from `pole` over
+/// pi).
 struct Sphere {
     Vec3 center{0.0f};
     float radius = 1.0f;
     bool flip_normals = false;                                ///< normals point inwards
-    Vec3 pole{0.0f, 0.0f, 1.0f}, meridian{1.0f, 0.0f, 0.0f};  ///< unit, at right angles
+    Vec3 pole{0.0f, 0.0f, 1.0f}, meridian{1.0f, 0.0f, 0.0f};  ///< unit length, at right angles
     bool mirrored = false;                                    ///< the azimuth runs clockwise about the pole
 
     Box3 box() const { return box_about(center, Vec3(radius)); }

@@ -5,11 +5,11 @@
 
 namespace treefarm {
 
-/// What lies outside of [0, 1) in u or v.
+/// Extension of an image outside of [0, 1) in u or v.
 enum class Wrap : std::uint8_t { repeat, mirror, clamp, zero, one };
 
-/// Texel (column, row from the top) holds u in [column, column+1) / width and v in [row, row+1) / height: v runs down
-/// the image, and the reader turns what its format means otherwise.
+/// Texture from an image. Texel (column, row from the top) covers u in [column, column+1) / width and v in [row, row+1)
+/// / height: v runs down the image; readers convert formats with other conventions.
 struct BitmapTexture {
     std::int32_t image = kNone;  ///< index in Scene::images
     bool bilinear = true;        ///< otherwise the nearest texel

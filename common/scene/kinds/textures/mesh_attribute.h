@@ -7,9 +7,9 @@
 
 namespace treefarm {
 
-/// What the mesh that is looked up on says of its vertices, interpolated over triangles, or of its faces.
+/// Attribute of the mesh on which the texture is looked up: of vertices, interpolated over triangles, or of faces.
 struct MeshAttributeTexture {
-    std::string name = "vertex_color";  ///< as of MeshAttribute
+    std::string name = "vertex_color";  ///< as in MeshAttribute
 
     static constexpr KindEffect kEffect{"mesh_attributes", "mesh attribute"};
     ValueRange range(const auto& scene) const { return scene.range_of_attribute(name); }

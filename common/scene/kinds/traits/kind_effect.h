@@ -3,11 +3,11 @@
 
 namespace treefarm {
 
-/// The effect that a kind is, where it is one of its own: a row in the table of effects (common/config/effects), which
-/// does not compile without.
+/// The effect of a kind that is an effect of its own. It must be a row in the table of effects (common/plan/effects),
+/// or compilation fails.
 struct KindEffect {
     const char* name;   ///< "bitmaps"
-    const char* title;  ///< one of the kind: "bitmap"
+    const char* title;  ///< noun for one of the kind: "bitmap"
 };
 
 }  // namespace treefarm

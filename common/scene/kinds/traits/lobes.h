@@ -5,21 +5,20 @@
 
 namespace treefarm {
 
-/// The ways in which a surface sends light on. Glossy: over a range of directions about one; delta: in a single
-/// direction.
+/// Types of scattering of a surface. Glossy: over a range of directions around one; delta: in a single direction.
 struct Lobes {
     bool diffuse = false;
     bool glossy_reflection = false, delta_reflection = false;
     bool glossy_transmission = false, delta_transmission = false;  ///< a thin pane's is delta, though straight on
-    bool null = false;                                             ///< straight on, as if nothing were there
+    bool null = false;                                             ///< straight through, as without a surface
 
     Lobes& operator|=(const Lobes& other);
     bool operator==(const Lobes&) const = default;
     bool transmits() const { return glossy_transmission || delta_transmission || null; }
     bool delta() const { return delta_reflection || delta_transmission || null; }
-    /// A lobe with a density: what next event can use and a guide can learn from.
+    /// Whether there is a lobe with a density, which next event can use and a guide can learn.
     bool smooth() const { return diffuse || glossy_reflection || glossy_transmission; }
-    /// A smooth lobe whose directions depend on where light goes.
+    /// Whether there is a smooth lobe that depends on the outgoing direction.
     bool view_dependent() const { return glossy_reflection || glossy_transmission; }
 };
 

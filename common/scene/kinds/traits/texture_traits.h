@@ -7,18 +7,18 @@
 
 namespace treefarm {
 
-/// (u, v) -> (u_row . (u, v, 1), v_row . (u, v, 1)), before anything is looked up.
+/// Affine transform of texture coordinates before look-up: (u, v) -> (u_row . (u, v, 1), v_row . (u, v, 1)).
 struct UvTransform {
     Vec3 u_row{1.0f, 0.0f, 0.0f};
     Vec3 v_row{0.0f, 1.0f, 0.0f};
     bool operator==(const UvTransform&) const = default;
 };
 
-/// Limits between which the values of an image or a texture lie.
+/// Limits of the values of an image or a texture.
 struct ValueRange {
     float min = 0.0f, max = 0.0f;
 
-    /// The least one that holds both.
+    /// Smallest range that contains this one and the value.
     ValueRange with(float value) const { return {value < min ? value : min, max < value ? value : max}; }
 };
 
