@@ -54,7 +54,7 @@ class LaunchWorld {
         status->pid = 42;
     }
     void die() { running = false; }
-    /// Exit code of the launch when the attempt's processes are gone; nothing if it goes on.
+    /// Exit code of the launch after the end of the attempt's processes; no value if it continues.
     std::optional<int> code_after_death() {
         die();
         step();
