@@ -29,7 +29,7 @@ inline constexpr const char* kLaunchFolder = "launch";
 inline constexpr const char* kInspectFolder = "inspect";
 inline constexpr const char* kLockFileName = "lock";
 
-/// Files that a render writes to its run directory. A folder with one of the first two is a run directory.
+/// Files that a render writes to its run directory. The first two mark a folder as a run directory.
 inline constexpr std::array<RunFile, 13> kRunFiles = {{
     {kStatusFile, "progress, once a second, and which process on which host writes it"},
     {kSummaryFile, "how the run ended, where and when it ran, hashes, and the main figures of each pass"},

@@ -24,7 +24,7 @@ struct RenderContent {
     Job job;
     Scene scene;                        ///< without the effects that the job forces off
     EffectPlan plan;                    ///< of scene and job
-    std::vector<PassPlan> schedule;     ///< these passes; empty: those of the job's budget
+    std::vector<PassPlan> schedule;     ///< passes to render; empty: those of the job's budget
     std::vector<std::string> warnings;  ///< of the readers, for the log
     std::vector<std::string> notes;     ///< of the readers, other than faults
 };

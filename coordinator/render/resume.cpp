@@ -91,7 +91,7 @@ void go_on_from(std::shared_ptr<LoadedCheckpoint> checkpoint, const fs::path& ru
                "add samples with --spp N above that, or --seconds or --error beyond what it has");
 }
 
-/// Those of the settings that --set gives, or could give.
+/// Settings among these that --set gives, or could give.
 std::vector<std::string> set_arguments(const std::vector<Setting>& settings) {
     constexpr std::string_view kOption = "--set ";
     std::vector<std::string> arguments;
