@@ -13,7 +13,7 @@ namespace treefarm {
 /// model goes out of date.
 inline constexpr double kKeptEvidence = 0.5;
 
-/// What a pass costs and how noisy it is: by these a decision on next event weighs noise against rays.
+/// Noise and cost of a pass, by which a decision on next event weighs noise against rays.
 struct NextEventPrice {
     double variance = 0;  ///< of a camera sample, relative to the squared light level of its block
     double rays = 0;      ///< closest-hit rays per camera sample; 0: no decision
