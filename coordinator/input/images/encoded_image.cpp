@@ -38,7 +38,7 @@ std::optional<ImageFormat> plain_format(std::span<const std::uint8_t> bytes, con
     return std::nullopt;
 }
 
-/// Checks that all pixel data of such a format are present, and sets the size.
+/// Checks that all pixel data of an uncompressed format are present, and sets the size.
 void read_plain_header(EncodedImage& image, std::string& why) {
     if (image.format == ImageFormat::netpbm) {
         if (const auto header = read_netpbm_header(image.bytes, why)) {
