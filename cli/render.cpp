@@ -18,7 +18,7 @@ namespace treefarm {
 
 namespace {
 
-/// A sample is traced in one process.
+/// Runs --debug-sample, in one process.
 void debug(const LaunchEnvironment& launch, const RenderOptions& options) {
     if (launch.rank != 0) return;
     if (launch.under_mpi)

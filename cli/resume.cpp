@@ -13,10 +13,10 @@ namespace treefarm {
 
 namespace {
 
-/// treefarm resume RUN_DIR
+/// Options of treefarm resume RUN_DIR
 struct ResumeOptions {
     std::string run;
-    RenderOptions render;  ///< of the render that goes on
+    RenderOptions render;  ///< of the resumed render
 };
 
 RenderRequest read(const ResumeOptions& options) {

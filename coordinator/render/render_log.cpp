@@ -20,7 +20,7 @@ namespace treefarm {
 
 namespace {
 
-/// A render that has found no light in so many passes says so before it ends.
+/// Number of black passes after which a render reports that it has found no light.
 constexpr std::uint32_t kPassesInTheDark = 3;
 
 std::string size_text(const Film& film) {
@@ -82,7 +82,7 @@ void RenderLog::tell_pass(const PassReport& pass, const CombinedImage& image, st
     if (pass.plan.index >= kPassesInTheDark) tell_if_black(image, pass.spp_done);
 }
 
-/// Says, once, what in the scene makes an image black.
+/// Logs, once, the probable cause of a black image.
 void RenderLog::tell_if_black(const CombinedImage& image, std::uint32_t spp) {
     const auto is_dark = [](const Rgb64& mean) { return mean == Rgb64(0.0); };
     if (reported_black_ || !std::all_of(image.mean.begin(), image.mean.end(), is_dark)) return;
@@ -144,7 +144,7 @@ std::string RenderLog::budget_text(const NextPass& first) const {
     return text;
 }
 
-/// What is kept of a render that is not done, and how it goes on.
+/// Description of the saved results of an unfinished render, with the command that resumes it.
 std::string RenderLog::kept_text(const RenderResult& result, double part) const {
     const bool goes_on = request_.storage.checkpoints && request_.content.job.farm.checkpoint_seconds > 0;
     const double share = goes_on && part < 1 ? part : 0;  // 1: of a finished pass

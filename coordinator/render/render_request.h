@@ -19,47 +19,47 @@
 
 namespace treefarm {
 
-/// What a render computes: everything read and checked.
+/// Content of a render, with all input read and checked.
 struct RenderContent {
     Job job;
     Scene scene;                        ///< without the effects that the job forces off
-    EffectPlan plan;                    ///< of both
-    std::vector<PassPlan> schedule;     ///< these passes; empty: those of the job's budget
+    EffectPlan plan;                    ///< of scene and job
+    std::vector<PassPlan> schedule;     ///< passes to render; empty: those of the job's budget
     std::vector<std::string> warnings;  ///< of the readers, for the log
-    std::vector<std::string> notes;     ///< of the readers, of what is no fault
+    std::vector<std::string> notes;     ///< of the readers, other than faults
 };
 
-/// What a render begins with. Without either: the guide's first model, and no samples.
+/// Start of a render. Without either member: the guide's initial model, and no samples.
 struct RenderStart {
-    std::optional<AnyModel> model;                 ///< that guides the first pass
-    std::shared_ptr<LoadedCheckpoint> checkpoint;  ///< what the render continues; its state is taken
+    std::optional<AnyModel> model;                 ///< guides the first pass
+    std::shared_ptr<LoadedCheckpoint> checkpoint;  ///< checkpoint being resumed; its state is moved out
 };
 
-/// What a render leaves, besides what job.output says (the run directory among it).
+/// Storage settings of a render, besides job.output (which names the run directory).
 struct RenderStorage {
     bool overwrite = false;        ///< an earlier run in the folder may be replaced
-    bool checkpoints = true;       ///< the render can be resumed; false: it is one of many that are short
-    std::string display_server{};  ///< HOST:PORT of a viewer that speaks tev's protocol; "": none
+    bool checkpoints = true;       ///< whether checkpoints are written; false in a series of short renders
+    std::string display_server{};  ///< HOST:PORT of a viewer with tev's protocol; "": none
 };
 
-/// Who asked for a render, with which program: what its files say of its origin.
+/// Origin of a render, for its files: command and program.
 struct RenderOrigin {
     std::string command{};        ///< as it was typed
     std::string debug_command{};  ///< reproduces a sample with " pass,x,y,sample" and --schedule appended
     Fingerprint fingerprint{};    ///< of this process
-    std::string attempt{};        ///< of treefarm launch; "" without
+    std::string attempt{};        ///< attempt of treefarm launch; "" without launch
 };
 
-/// Who renders, and until when.
+/// Workers of a render, and its interruption.
 struct RenderWorkers {
-    Channel* channel = nullptr;  ///< to workers that are there; the caller dismisses them
-    LocalWorker local{};         ///< without a channel: runs one in this process, which is dismissed at the end
+    Channel* channel = nullptr;  ///< channel to running workers, which the caller dismisses
+    LocalWorker local{};         ///< without a channel: worker in this process, dismissed at the end
     JobTurn turn{};              ///< among the jobs of a study
-    /// Asked often; true interrupts the render, which can be resumed then.
+    /// Polled often; true interrupts the render, which can be resumed later.
     std::function<bool()> stop = [] { return false; };
 };
 
-/// A render as it was asked for, read and checked (read_request()).
+/// Request of a render, read and checked (read_request()).
 struct RenderRequest {
     RenderContent content{};
     RenderStart start{};
@@ -68,10 +68,10 @@ struct RenderRequest {
     RenderWorkers workers{};
 };
 
-/// The state that a render without a checkpoint begins with.
+/// Initial state of a request without a checkpoint.
 RenderState starting_state(const RenderRequest& request);
 
-/// The passes that a request asks for.
+/// Pass planner of a request.
 PassChooser passes_of(const RenderRequest& request);
 
 }  // namespace treefarm

@@ -186,7 +186,7 @@ class StudyRun {
         if (of.reference.empty()) write_json(reference.mark(), reference.about);
     }
 
-    /// A run in a folder of its own. What a killed run left there goes first.
+    /// Renders in a folder of its own, after removing partial files of a killed run.
     RenderOutcome render(RenderRequest& request, const fs::path& folder, StatusFrame frame,
                          const decltype(RenderObserver::pass)& pass = {}) {
         if (interrupted_()) throw Interrupted();
