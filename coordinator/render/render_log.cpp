@@ -152,7 +152,7 @@ std::string RenderLog::kept_text(const RenderResult& result, double part) const 
     if (result.spp > 0) text = fmt::format("kept the {} spp of finished passes", result.spp);
     if (share > 0)
         text +=
-            fmt::format("{}{:.0f} % of the present pass", text.empty() ? "kept " : ", and ", std::floor(100 * share));
+            fmt::format("{}{:.0f} % of the unfinished pass", text.empty() ? "kept " : ", and ", std::floor(100 * share));
     if (goes_on && !text.empty()) text += "; go on with: treefarm resume " + shell_quoted(folder_.string());
     return text;
 }
