@@ -52,7 +52,7 @@ void RenderLog::tell_start(const RenderState& state, const NextPass& first) cons
                size_text(request_.content.scene.film), budget_text(first), folder_.string());
     if (continues)
         log_->info("{} passes with {} spp are done{}, {} of rendering", state.reports.size(), state.spp(),
-                   state.partial ? ", one is unfinished" : "",
+                   state.partial ? ", one is partly done" : "",
                    duration_text(state.partial ? state.partial->run_seconds : state.history.seconds));
     if (continues && request_.content.plan.job.farm.checkpoint_seconds == 0)
         log_->warn("no checkpoints (farm.checkpoint_seconds = 0): that of {} spp stays until the render is done",
