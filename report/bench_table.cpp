@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "common/base/error.h"
+#include "common/base/files/read_bytes.h"
 
 namespace treefarm {
 
@@ -49,9 +49,8 @@ void add_measurement(const Json& json, std::vector<BenchChoice>& choices) {
 }
 
 /// Content of a file. Google Benchmark writes NaN, which is no JSON, for spreads of counters that are zero.
-std::string read_text(const std::filesystem::path& file) {
-    std::ifstream stream(file);
-    std::string text{std::istreambuf_iterator<char>(stream), {}};
+std::string read_benchmark(const std::filesystem::path& file) {
+    std::string text = read_text(file);
     for (const std::string word : {": -NaN", ": NaN", ": -Infinity", ": Infinity"})
         for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos;)
             text.replace(at, word.size(), ": null");
@@ -82,7 +81,7 @@ std::string ratio_text(const BenchVariant& own, const BenchVariant& base) {
 std::vector<BenchChoice> read_bench(const std::filesystem::path& file) {
     std::vector<BenchChoice> choices;
     try {
-        const Json json = Json::parse(read_text(file));
+        const Json json = Json::parse(read_benchmark(file));
         for (const Json& benchmark : json.at("benchmarks"))
             add_measurement(benchmark, choices);
     } catch (const Json::exception& error) {

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "common/base/error.h"
+#include "common/base/files/read_bytes.h"
 #include "common/runs/run_files.h"
 #include "report/figure_text.h"
 #include "report/html.h"
@@ -43,11 +43,6 @@ Interval ratio_of_core_seconds(const std::vector<const CellResult*>& with, const
                 b.push_back(other->passes.back().core_seconds);
             }
     return geometric_ratio(a, b);
-}
-
-std::string read_text(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// Costs of a method's effects, by name.

@@ -10,12 +10,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <optional>
-#include <sstream>
 
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
+#include "common/base/files/read_bytes.h"
 #include "report/html.h"
 
 namespace treefarm {
@@ -41,13 +40,6 @@ class TemporaryFolder {
   private:
     std::filesystem::path path_;
 };
-
-std::string read_text(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
 
 /// Exit code of gnuplot; 127 if it is not installed.
 int run_gnuplot(const std::filesystem::path& script, const std::filesystem::path& messages) {

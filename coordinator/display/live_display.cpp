@@ -34,7 +34,7 @@ void LiveDisplay::show(std::span<const PixelEstimate> film, int width, int heigh
     const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     if (!client_ || now < next_ || film.size() != count || !client_->idle()) return;
     const Timer timer;
-    auto pass = std::make_shared<const PartialPass>(partial_pass(film));
+    auto pass = std::make_shared<const PassPixels>(pass_pixels(film));
     client_->show([image = newest_, spp = newest_spp_, pass, width, height] {
         return preview_image(*image, spp, *pass, width, height);
     });

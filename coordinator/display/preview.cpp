@@ -11,8 +11,8 @@ Rgb to_float(const Rgb64& colour) {
 
 }  // namespace
 
-PartialPass partial_pass(std::span<const PixelEstimate> film) {
-    PartialPass pass;
+PassPixels pass_pixels(std::span<const PixelEstimate> film) {
+    PassPixels pass;
     pass.pixels.resize(film.size());
     for (std::size_t p = 0; p < film.size(); ++p) {
         const Moments &a = film[p].half[0], &b = film[p].half[1];
@@ -24,12 +24,12 @@ PartialPass partial_pass(std::span<const PixelEstimate> film) {
     return pass;
 }
 
-RgbImage preview_image(const CombinedImage& image, std::uint32_t spp, const PartialPass& pass, int width, int height) {
+RgbImage preview_image(const CombinedImage& image, std::uint32_t spp, const PassPixels& pass, int width, int height) {
     RgbImage preview(width, height);
     for (std::size_t p = 0; p < preview.pixels.size(); ++p) {
         const Rgb finished = image.mean.empty() ? Rgb(0.0f) : to_float(image.mean[p]);
         const float before = image.mean.empty() ? 0.0f : static_cast<float>(spp);
-        const PartialPass::Pixel now = pass.pixels.empty() ? PartialPass::Pixel() : pass.pixels[p];
+        const PassPixels::Pixel now = pass.pixels.empty() ? PassPixels::Pixel() : pass.pixels[p];
         const float samples = before + now.samples;
         if (samples > 0) preview.pixels[p] = (finished * before + now.mean * now.samples) / samples;
     }

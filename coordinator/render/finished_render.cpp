@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/render/finished_render.h"
 
-#include <fstream>
-#include <sstream>
-
 #include "common/base/files/atomic_file.h"
+#include "common/base/files/read_bytes.h"
 #include "common/base/hash.h"
 #include "common/plan/resolve/resolved_file.h"
 #include "common/runs/run_json.h"
@@ -12,16 +10,7 @@
 
 namespace treefarm {
 
-namespace {
-
 namespace fs = std::filesystem;
-std::string read_text(const fs::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path, std::ios::binary).rdbuf();
-    return text.str();
-}
-
-}  // namespace
 
 RenderFigures read_figures(const fs::path& folder) {
     RenderFigures figures;

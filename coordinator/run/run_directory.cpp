@@ -174,7 +174,7 @@ void RunDirectory::write_preview(std::span<const PixelEstimate> film, int width,
             std::max(1.0, kPreviewInterval * kPreviewSecondsPerPixel * static_cast<double>(count) / processors());
     if (elapsed_seconds < next_preview_) return;
     const Timer timer;
-    auto pass = std::make_shared<const PartialPass>(partial_pass(film));
+    auto pass = std::make_shared<const PassPixels>(pass_pixels(film));
     writer_.put(kPreviewFile, [this, image = newest_, spp = newest_spp_, pass, width, height] {
         const double before = thread_cpu_seconds();
         write_bytes(kPreviewFile, encode_png(preview_image(*image, spp, *pass, width, height)), Outlives::process);

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Seconds within which a killed launcher's ranks have left the folder.
-constexpr double kPatience = 2.0;
+constexpr double kLeavingSeconds = 2.0;
 
 std::string time_stamp() {
     const std::time_t now = std::time(nullptr);
@@ -68,7 +68,7 @@ void refuse_if_at_work(const fs::path& folder) {
 }
 
 RunFolder::RunFolder(const Job& job, FolderUse use, const std::function<bool()>& interrupted)
-    : use_(use), path_(make_folder(job)), lock_(path_, kPatience, interrupted) {
+    : use_(use), path_(make_folder(job)), lock_(path_, kLeavingSeconds, interrupted) {
     check();
     try {
         remove_leftovers();

@@ -2,6 +2,7 @@
 #include "common/base/files/read_bytes.h"
 
 #include <fstream>
+#include <iterator>
 
 #include "common/base/error.h"
 
@@ -22,6 +23,11 @@ std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path, const st
     file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
     if (!file || file.gcount() != static_cast<std::streamsize>(size)) refuse("cannot be read", "check its permissions");
     return bytes;
+}
+
+std::string read_text(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
 }
 
 }  // namespace treefarm

@@ -136,7 +136,7 @@ TEST(Preview, ShowsFinishedPassesAndWhatHasComeOfTheNext) {
     std::vector<PixelEstimate> film(2);
     for (std::uint32_t sample = 0; sample < 3; ++sample)
         film[1].add(sample, Rgb(5.0f));
-    const PartialPass pass = partial_pass(film);
+    const PassPixels pass = pass_pixels(film);
     const RgbImage both = preview_image(image, 1, pass, 2, 1);
     EXPECT_EQ(both.pixels[0], Rgb(1.0f)) << "of the pass in hand nothing has come";
     EXPECT_EQ(both.pixels[1], Rgb(4.0f)) << "one sample of 1, three of 5";
