@@ -32,8 +32,7 @@ void add_resume_command(CLI::App& app, const LaunchEnvironment& launch, const st
     const auto options = std::make_shared<ResumeOptions>();
     RenderOptions& render = options->render;
     render.command = command_line;
-    CLI::App* command =
-        app.add_subcommand("resume", "Goes on with a render that was broken off, or adds samples to it");
+    CLI::App* command = app.add_subcommand("resume", "Resumes an unfinished render, or adds samples to a finished one");
     command->add_option("run", options->run, "its run directory")->required();
     add_text_option(*command, "-o,--output", render.output,
                     "also write the image here (default: where the render would have)");

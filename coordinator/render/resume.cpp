@@ -35,7 +35,7 @@ void check_origin(const fs::path& run, const CheckpointOrigin& origin, const Ren
     if (origin.fingerprint != request.origin.fingerprint.hash())
         refuse(run,
                "was rendered by another build (" + origin.build + "; this is " + request.origin.fingerprint.text() +
-                   "): its bits could not go on",
+                   "): it could not continue to the same bits",
                "use that program, or: " + again + " --schedule " + shell_quoted((run / kScheduleFile).string()));
     const std::string changed =
         first_difference(read_resolved(origin.resolved, (run / "resolved.toml").string()), request.content.plan.job);
@@ -126,7 +126,7 @@ void check_run_folder(const fs::path& run) {
 
 std::optional<RenderOutcome> go_on_in_folder(RenderRequest& request) {
     const fs::path run = request.content.job.output.directory;
-    if (run.empty()) refuse("--resume", "does not know in which folder to go on", "name it with --run-dir");
+    if (run.empty()) refuse("--resume", "needs a folder to resume in", "name it with --run-dir");
     if (holds_result_of(run, request) && restore_output(run, request.content.job.output.file)) {
         RenderOutcome outcome;
         outcome.state = RunState::done;

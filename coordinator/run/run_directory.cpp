@@ -95,7 +95,7 @@ RunDirectory::RunDirectory(const Job& job, RunFacts facts, const EffectPlan& pla
       checkpoints_(path(), job, origin_of_checkpoints(), options.resumed) {
     if (options.resumed) {
         if (newest_generation(path()) != options.resumed->newest)
-            throw InputError(Location{path().string(), 0, 0}, "another render has gone on with it meanwhile",
+            throw InputError(Location{path().string(), 0, 0}, "another process has resumed it meanwhile",
                              "start again");
         for (const PassReport& report : options.resumed->state.reports)
             note_pass(report);
