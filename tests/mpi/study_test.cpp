@@ -180,9 +180,9 @@ TEST(StudyProgram, MeasuresAgainstAGivenImage) {
         for (const auto& [name, cell] : cells) {
             // 7 against 256 samples: the error is that of the cell, which knows it.
             const nlohmann::json& last = cell["passes"].back();
-            EXPECT_NEAR(
-                std::log(last["measured"]["rmse_over_mean"].get<double>() / last["image_error"]["relative"].get<double>()),
-                0.0, 0.7)
+            EXPECT_NEAR(std::log(last["measured"]["rmse_over_mean"].get<double>() /
+                                 last["image_error"]["relative"].get<double>()),
+                        0.0, 0.7)
                 << name;
             const nlohmann::json summary = read_summary(results / "cells" / name);
             for (const char* where : {"host", "started"})
