@@ -144,10 +144,10 @@ TEST(RunTables, AnUnknownFigureIsAnEmptyFieldOrNull) {
 
 TEST(RunTables, AreWhatARenderWrites) {
     const fs::path run = fs::path(testing::TempDir()) / ("runs_test_" + std::to_string(getpid()));
-    const test::Ended ended =
-        test::run_treefarm("render " + test::own_scene("cornell-box.xml") +
-                           " --set image.width=64 --set image.height=64 --error 0.1% --spp 7 --run-dir " +
-                           run.string() + " --set farm.threads=1");
+    const test::Ended ended = test::run_treefarm(
+        "render " + test::own_scene("cornell-box.xml") +
+        " --set image.width=64 --set image.height=64 --error 0.1% --set budget.max_spp=7 --run-dir " + run.string() +
+        " --threads 1");
     ASSERT_TRUE(ended.code == 0 || ended.code == 4) << ended.output;
     for (const auto& [file, place] : {std::pair(kSummaryFile, kInSummary), std::pair(kStatusFile, kInStatus)}) {
         std::set<std::string> written, known;
