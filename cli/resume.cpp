@@ -7,6 +7,7 @@
 
 #include "cli/option_values.h"
 #include "cli/render.h"
+#include "common/runs/run_files.h"
 #include "coordinator/render/resume.h"
 
 namespace treefarm {
@@ -49,7 +50,7 @@ void add_resume_command(CLI::App& app, const LaunchEnvironment& launch, const st
         kExitCodesText);
     command->callback([options, launch, &exit_code] {
         const std::filesystem::path run(options->run);
-        options->render.input = (run / "job.toml").string();
+        options->render.input = (run / kJobFile).string();
         exit_code = render_on_farm(launch, options->render.farm, run.filename(), [&] { return read(*options); });
     });
 }

@@ -33,7 +33,7 @@ std::string size_text(const Film& film) {
 }  // namespace
 
 RenderLog::RenderLog(const RenderRequest& request, std::filesystem::path folder, const TellMessage& tell)
-    : request_(request), folder_(std::move(folder)), log_(make_log("treefarm", folder_ / "log.txt", tell)) {}
+    : request_(request), folder_(std::move(folder)), log_(make_log("treefarm", folder_ / kLogFile, tell)) {}
 
 void RenderLog::tell_origin() const {
     log_->debug("{}", request_.origin.command);
@@ -151,8 +151,8 @@ std::string RenderLog::kept_text(const RenderResult& result, double part) const 
     std::string text;
     if (result.spp > 0) text = fmt::format("kept the {} spp of finished passes", result.spp);
     if (share > 0)
-        text +=
-            fmt::format("{}{:.0f} % of the unfinished pass", text.empty() ? "kept " : ", and ", std::floor(100 * share));
+        text += fmt::format("{}{:.0f} % of the unfinished pass", text.empty() ? "kept " : ", and ",
+                            std::floor(100 * share));
     if (goes_on && !text.empty()) text += "; go on with: treefarm resume " + shell_quoted(folder_.string());
     return text;
 }

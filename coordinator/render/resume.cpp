@@ -25,25 +25,25 @@ void check_directory(const fs::path& run) {
     if (!fs::exists(run / kCheckpointFolder)) refuse_if_at_work(run);
     if (!fs::exists(run / kCheckpointFolder))
         refuse(run, "holds no checkpoint: too little was done, or none was to be kept",
-               "render again: treefarm render " + shell_quoted((run / "job.toml").string()));
+               "render again: treefarm render " + shell_quoted((run / kJobFile).string()));
 }
 
 /// Throws InputError if the render could not continue to the same bits. `set`: the settings of --set.
 void check_origin(const fs::path& run, const CheckpointOrigin& origin, const RenderRequest& request,
                   const std::vector<std::string>& set) {
-    const std::string again = "treefarm render " + shell_quoted((run / "job.toml").string());
+    const std::string again = "treefarm render " + shell_quoted((run / kJobFile).string());
     if (origin.fingerprint != request.origin.fingerprint.hash())
         refuse(run,
                "was rendered by another build (" + origin.build + "; this is " + request.origin.fingerprint.text() +
                    "): it could not continue to the same bits",
                "use that program, or: " + again + " --schedule " + shell_quoted((run / kScheduleFile).string()));
     const std::string changed =
-        first_difference(read_resolved(origin.resolved, (run / "resolved.toml").string()), request.content.plan.job);
+        first_difference(read_resolved(origin.resolved, (run / kResolvedFile).string()), request.content.plan.job);
     if (!changed.empty()) {
         std::string new_job = again;
         for (const std::string& argument : set)
             new_job += " --set " + shell_quoted(argument);
-        refuse(set.empty() ? run / "job.toml" : fs::path("--set"),
+        refuse(set.empty() ? run / kJobFile : fs::path("--set"),
                set.empty() ? "is not the job of the render: " + changed : "would make another render: " + changed,
                "only farm.*, output.* and the budget may change; for the new job: " + new_job);
     }
@@ -107,7 +107,7 @@ std::vector<std::string> set_arguments(const std::vector<Setting>& settings) {
 
 RenderRequest read_resumed(const fs::path& run, RenderInput input, const RenderOrigin& origin) {
     check_directory(run);
-    input.file = (run / "job.toml").string();
+    input.file = (run / kJobFile).string();
     input.reads_model = false;  // the checkpoint contains the model learned from it
     const std::vector<std::string> set = set_arguments(input.settings);
     input.settings.push_back({"output.directory", run.string(), Location{"--run-dir", 0, 0}});
@@ -119,7 +119,7 @@ RenderRequest read_resumed(const fs::path& run, RenderInput input, const RenderO
 }
 
 void check_run_folder(const fs::path& run) {
-    if (fs::exists(run / "job.toml")) return;
+    if (fs::exists(run / kJobFile)) return;
     if (fs::is_directory(run)) refuse_if_at_work(run);
     refuse(run, "is no run directory", "name the folder that a render wrote its files to");
 }
