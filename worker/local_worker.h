@@ -12,7 +12,7 @@ namespace treefarm {
 WorkerSettings worker_here(unsigned threads, std::uint64_t fingerprint);
 
 /// A worker in the coordinator's process, which is at the other end of the channel, until it is dismissed.
-/// `threads`: 0: as many as processors. What goes wrong is logged: the coordinator notices the silence.
+/// `threads`: 0: as many as processors. Errors are logged, and the coordinator notices the silence.
 void run_local_worker(Channel& own, unsigned threads, std::uint64_t fingerprint, const Log& log);
 
 }  // namespace treefarm

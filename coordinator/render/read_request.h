@@ -13,7 +13,7 @@
 
 namespace treefarm {
 
-/// How long to render. Says nothing: as the settings have it.
+/// Length of a render. Empty: by the settings.
 struct RenderBudget {
     std::optional<std::uint32_t> spp{};  ///< samples per pixel; of a render that continues, in all
     std::optional<double> seconds{};     ///< of rendering; of a render that continues, in all
@@ -21,7 +21,7 @@ struct RenderBudget {
     std::string schedule{};              ///< file: repeat the passes of this schedule.toml
 };
 
-/// What to read a render from, as a person names it.
+/// Source of a render: files and settings, as a person names them.
 struct RenderInput {
     std::string file{};               ///< Mitsuba scene (.xml) or job (.toml)
     std::vector<Setting> settings{};  ///< keys of a job, over those of the scene and the job file
@@ -37,7 +37,7 @@ RenderRequest read_request(const RenderInput& input, const RenderOrigin& origin 
 /// The job of a scene that was read, and layers of settings, each over the one before; not checked.
 Job merged_job(const LoadedScene& loaded, std::initializer_list<std::span<const Setting>> layers);
 
-/// Adds what the scene's reader has to say.
+/// Adds the warnings and notes of the scene's reader.
 void take_warnings(const LoadedScene& loaded, RenderContent& content);
 
 }  // namespace treefarm

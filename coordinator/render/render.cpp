@@ -152,7 +152,7 @@ class RenderRun {
         if (observer_.phase) observer_.phase(phase);
     }
 
-    /// Of the pass that came in last.
+    /// Finished part of the last pass, 0 to 1.
     double part_of_pass() const {
         if (!farm_.has_pass()) return 0;
         return static_cast<double>(farm_.ledger().done()) / static_cast<double>(farm_.ledger().total());

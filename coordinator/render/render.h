@@ -10,7 +10,7 @@
 
 namespace treefarm {
 
-/// How a render came out.
+/// Outcome of a render.
 struct RenderOutcome {
     RunState state = RunState::failed;
     std::string error;             ///< why it failed; "" if it did not
@@ -22,9 +22,9 @@ struct RenderOutcome {
     std::set<int> lost_peers;      ///< workers that were given up, now or in an earlier job, and are not back
 };
 
-/// Renders a request to its end: run directory, workers, passes, files. What goes wrong after the run directory exists
-/// is logged and summarised there, and is part of the outcome; what is wrong with the request throws InputError, and
-/// leaves the folder as it was.
+/// Renders a request: run directory, workers, passes, files. A request that cannot be rendered throws InputError, and
+/// the folder is left as it was. Later failures are logged and summarised in the run directory, and are part of the
+/// outcome.
 RenderOutcome render(const RenderRequest& request, const RenderObserver& observer = {});
 
 }  // namespace treefarm

@@ -10,16 +10,16 @@
 
 namespace treefarm {
 
-/// What a render says of itself, line by line: to its observer and in the run directory's log.txt.
+/// Log of a render: lines for its observer and for log.txt in the run directory.
 class RenderLog {
   public:
     /// `request` outlives it.
     RenderLog(const RenderRequest& request, std::filesystem::path folder, const TellMessage& tell);
 
     const Log& log() const { return log_; }
-    /// The command, and what its readers had to say.
+    /// Logs the command and the readers' warnings.
     void tell_origin() const;
-    /// What the render begins with, or continues.
+    /// Logs scene, size and budget, and the samples of a checkpoint.
     void tell_start(const RenderState& state, const NextPass& first) const;
     /// `pass_count`: of all; 0: not known.
     void tell_pass(const PassReport& pass, const CombinedImage& image, std::size_t pass_count);

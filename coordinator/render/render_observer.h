@@ -12,13 +12,13 @@ namespace treefarm {
 
 struct RenderOutcome;
 
-/// Functions that a render calls while it runs, in the thread that asked for it. Any of them may be empty; what they
-/// take counts as the render's time.
+/// Functions that a render calls in the thread of its caller. Any of them may be empty; their time counts as the
+/// render's.
 struct RenderObserver {
     TellMessage message;                   ///< each line of its log
     std::function<void(LifePhase)> phase;  ///< that begins; during LifePhase::pass, progress() is called instead
     std::function<void(const RenderProgress&, const Roster&)> progress;  ///< many times a second
-    /// After each pass, with the image so far. What was decided with the pass: decision_texts().
+    /// Called after each pass, with the image so far; decision_texts() tells the pass's decisions.
     std::function<void(const PassReport&, const CombinedImage&)> pass;
     std::function<void(const RenderOutcome&)> end;  ///< once, unless an exception leaves the render
 };

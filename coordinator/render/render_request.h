@@ -19,30 +19,30 @@
 
 namespace treefarm {
 
-/// What a render computes: everything read and checked.
+/// Content of a render, read and checked.
 struct RenderContent {
     Job job;
     Scene scene;                        ///< without the effects that the job forces off
     EffectPlan plan;                    ///< of both
-    std::vector<PassPlan> schedule;     ///< these passes; empty: those of the job's budget
+    std::vector<PassPlan> schedule;     ///< listed passes; empty: by the job's budget
     std::vector<std::string> warnings;  ///< of the readers, for the log
     std::vector<std::string> notes;     ///< of the readers, of what is no fault
 };
 
-/// What a render begins with. Without either: the guide's first model, and no samples.
+/// Start of a render. Empty: the guide's first model, and no samples.
 struct RenderStart {
     std::optional<AnyModel> model;                 ///< that guides the first pass
-    std::shared_ptr<LoadedCheckpoint> checkpoint;  ///< what the render continues; its state is taken
+    std::shared_ptr<LoadedCheckpoint> checkpoint;  ///< checkpoint to continue; its state is moved out
 };
 
-/// What a render leaves, besides what job.output says (the run directory among it).
+/// Files and displays of a render, besides those of job.output, which names the run directory.
 struct RenderStorage {
     bool overwrite = false;        ///< an earlier run in the folder may be replaced
     bool checkpoints = true;       ///< the render can be resumed; false: it is one of many that are short
     std::string display_server{};  ///< HOST:PORT of a viewer that speaks tev's protocol; "": none
 };
 
-/// Who asked for a render, with which program: what its files say of its origin.
+/// Origin of a render, for its files: the command and the program.
 struct RenderOrigin {
     std::string command{};        ///< as it was typed
     std::string debug_command{};  ///< reproduces a sample with " pass,x,y,sample" and --schedule appended
@@ -50,16 +50,16 @@ struct RenderOrigin {
     std::string attempt{};        ///< of treefarm launch; "" without
 };
 
-/// Who renders, and until when.
+/// Workers of a render, and its stop flag.
 struct RenderWorkers {
-    Channel* channel = nullptr;  ///< to workers that are there; the caller dismisses them
-    LocalWorker local{};         ///< without a channel: runs one in this process, which is dismissed at the end
+    Channel* channel = nullptr;  ///< to workers of the caller, who dismisses them
+    LocalWorker local{};         ///< without a channel: a worker in this process, dismissed at the end
     JobTurn turn{};              ///< among the jobs of a study
     /// Asked often; true interrupts the render, which can be resumed then.
     std::function<bool()> stop = [] { return false; };
 };
 
-/// A render as it was asked for, read and checked (read_request()).
+/// Request of a render, read and checked (read_request()).
 struct RenderRequest {
     RenderContent content{};
     RenderStart start{};
@@ -68,10 +68,10 @@ struct RenderRequest {
     RenderWorkers workers{};
 };
 
-/// The state that a render without a checkpoint begins with.
+/// State at the start of a render without a checkpoint.
 RenderState starting_state(const RenderRequest& request);
 
-/// The passes that a request asks for.
+/// Passes of a request, one after the other.
 PassChooser passes_of(const RenderRequest& request);
 
 }  // namespace treefarm

@@ -10,7 +10,7 @@
 
 namespace treefarm {
 
-/// Refuses what is no run directory, or not yet: throws InputError.
+/// Throws InputError if the folder is no run directory, or not yet.
 void check_run_folder(const std::filesystem::path& run);
 
 /// A request that continues the render in a run directory from its newest usable checkpoint. `input`: settings and
