@@ -72,7 +72,7 @@ void print_point(const PointReport& point, std::ostream& out) {
     out << fmt::format("; a_BSDF {:.3g}, a_T1 {:.3g}, a_T2 {:.3g}", g.bsdf_fraction,
                        1.0f - g.bsdf_fraction - g.view_fraction, g.view_fraction);
     out << (point.reflected > 0 ? fmt::format("; reflects {:.4g}\n", point.reflected) : std::string("\n"));
-    for (const Comparison& c : point.comparisons) {
+    for (const GuidanceComparison& c : point.comparisons) {
         std::string panels;
         for (const std::string& panel : c.panels)
             panels += (panels.empty() ? "" : " | ") + panel;
@@ -121,7 +121,7 @@ Json point_json(const PointReport& point) {
                  {"a_bsdf", g.bsdf_fraction}, {"a_t1", 1.0f - g.bsdf_fraction - g.view_fraction},
                  {"a_t2", g.view_fraction},   {"reflected", point.reflected},
                  {"pictures", Json::array()}};
-    for (const Comparison& c : point.comparisons)
+    for (const GuidanceComparison& c : point.comparisons)
         json["pictures"].push_back(
             Json{{"kind", c.kind}, {"file", c.file}, {"panels", c.panels}, {"overlap", c.overlap}, {"white", c.white}});
     return json;

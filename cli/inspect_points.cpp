@@ -90,9 +90,9 @@ RgbImage picture(const std::vector<Panel>& panels, int bits, double white) {
     return image;
 }
 
-Comparison compare(const std::string& kind, const std::vector<Panel>& panels, int bits,
-                   const std::filesystem::path& file) {
-    Comparison comparison{kind, overlap(panels[0], panels[1]), most(panels), file.string(), {}};
+GuidanceComparison compare(const std::string& kind, const std::vector<Panel>& panels, int bits,
+                           const std::filesystem::path& file) {
+    GuidanceComparison comparison{kind, overlap(panels[0], panels[1]), most(panels), file.string(), {}};
     for (const Panel& panel : panels)
         comparison.panels.push_back(panel.title);
     write_png(file, picture(panels, bits, comparison.white));

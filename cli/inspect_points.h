@@ -23,7 +23,7 @@ NamedPoint named_pixel(const std::string& text, const TraceScene& scene, const A
 NamedPoint named_point(const std::string& text, const AnySampler& guide);
 
 /// A learned distribution beside true ones.
-struct Comparison {
+struct GuidanceComparison {
     std::string kind;                 ///< "t1", "t2" or "sampled"
     double overlap = 0;               ///< integral of the minimum of the learned and the first true density; 1: equal
     double white = 0;                 ///< density shown as white, per steradian
@@ -37,7 +37,7 @@ struct PointReport {
     Vec3 position{0.0f};
     PointFacts facts;
     double reflected = 0;  ///< radiance (mean of the channels) from the surface to the pixel, by brute force
-    std::vector<Comparison> comparisons;
+    std::vector<GuidanceComparison> comparisons;
 };
 
 /// Traces the true distributions at a point and writes its pictures to `folder`.

@@ -10,6 +10,7 @@
 #include "cli/usage.h"
 #include "common/base/refuse.h"
 #include "common/config/job_reader.h"
+#include "coordinator/render/resume.h"
 #include "coordinator/study/study.h"
 
 namespace treefarm {
