@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-JoinTicket ticket() {
+JoinTicket small_ticket() {
     return {draw_join_run(), "::1", 4711, draw_join_key()};
 }
 
@@ -33,7 +33,7 @@ TEST(JoinTicket, IsReadAsItWasWrittenByItsOwnerAlone) {
     const fs::path path = folder() / "join";
     const mode_t before = umask(0);
     for (int k = 0; k < 2; ++k) {  // the second replaces the first
-        const JoinTicket written = ticket();
+        const JoinTicket written = small_ticket();
         write_ticket(path, written);
         EXPECT_EQ(read_ticket(path), written);
         struct stat status {};
@@ -46,7 +46,7 @@ TEST(JoinTicket, IsReadAsItWasWrittenByItsOwnerAlone) {
 
 TEST(JoinTicket, OneThatOthersCanReadIsRefused) {
     const fs::path path = folder() / "join";
-    write_ticket(path, ticket());
+    write_ticket(path, small_ticket());
     fs::permissions(path, fs::perms::group_read, fs::perm_options::add);
     EXPECT_NE(refusal([&] { read_ticket(path); }).find("can be read by other users"), std::string::npos);
     EXPECT_NE(refusal([&] { read_ticket(path.parent_path()); }).find("is no file"), std::string::npos);
@@ -54,7 +54,7 @@ TEST(JoinTicket, OneThatOthersCanReadIsRefused) {
 }
 
 TEST(JoinTicket, OneThatIsCutOrChangedIsRefusedOrAnother) {
-    const JoinTicket whole = ticket();
+    const JoinTicket whole = small_ticket();
     const std::string text = ticket_text(whole);
     EXPECT_EQ(parse_ticket(text, "join"), whole);
     for (std::size_t length = 0; length + 1 < text.size(); ++length)

@@ -268,7 +268,7 @@ TEST(Protocol, UnitsThatDifferInTheirSamplesAreAnError) {
 
 TEST(Protocol, LightOfUnknownOriginIsRefused) {
     Result result = sample_result();
-    result.stats.tails.worst[0].origin.way = static_cast<PathClass>(6);
+    result.stats.tails.worst[0].origin.path_class = static_cast<PathClass>(6);
     EXPECT_THROW(decode(encode(result)), FormatError);
     result.stats.tails.worst[0].origin = {static_cast<LightFound>(4), PathClass::mirror, 2};
     EXPECT_THROW(decode(encode(result)), FormatError);

@@ -10,6 +10,7 @@
 #include "common/image/exr.h"
 #include "coordinator/input/images/stored_image.h"
 #include "tests/support/command.h"
+#include "tests/support/source_root.h"
 #include "tests/support/test_folder.h"
 
 namespace treefarm {
@@ -17,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = TREEFARM_SOURCE_DIR;
+using test::kRoot;
 
 class Outputs : public test::FolderTest {
   protected:

@@ -14,7 +14,7 @@
 namespace treefarm {
 namespace {
 
-std::string box() {
+std::string box_scene() {
     return test::own_scene("cornell-box.xml");
 }
 
@@ -30,7 +30,7 @@ void expect_refusal(const std::string& arguments, const std::vector<std::string>
 }
 
 void expect_render_refuses(const std::string& options, const std::vector<std::string>& texts) {
-    expect_refusal("render " + box() + " " + options, texts);
+    expect_refusal("render " + box_scene() + " " + options, texts);
 }
 
 TEST(Usage, SamplesAreWholeNumbersInRange) {
@@ -54,7 +54,7 @@ TEST(Usage, SecondsAreAboveZeroAndMayHaveAUnit) {
     expect_render_refuses("--seconds 1e9", {"\"1e9\" is more than 10^8 seconds"});
     expect_render_refuses("--seconds ''", {"the value is empty"});
     for (const char* text : {"90", "90s", "2min", "2m", "1h", "'1.5 min'"})
-        EXPECT_EQ(test::run_treefarm("plan --no-probe " + box() + " --seconds " + text).code, 0) << text;
+        EXPECT_EQ(test::run_treefarm("plan --no-probe " + box_scene() + " --seconds " + text).code, 0) << text;
 }
 
 TEST(Usage, ErrorsAreFractionsOrPercentages) {
@@ -66,7 +66,7 @@ TEST(Usage, ErrorsAreFractionsOrPercentages) {
     for (const char* text : {"abc", "nan", "%", "1e400", "5%%"})
         expect_render_refuses("--error '" + std::string(text) + "'", {"is not a number"});
     for (const char* text : {"0.05", "5%", "'5 %'", "1"})
-        EXPECT_EQ(test::run_treefarm("plan --no-probe " + box() + " --error " + text).code, 0) << text;
+        EXPECT_EQ(test::run_treefarm("plan --no-probe " + box_scene() + " --error " + text).code, 0) << text;
 }
 
 TEST(Usage, ThreadsAreWholeNumbersInRange) {
@@ -90,15 +90,15 @@ TEST(Usage, SettingsSayWhatIsAllowed) {
          {"budget.seconds=-1", "budget.seconds=1e400", "budget.seconds=nan", "budget.error=5", "budget.error=500%",
           "budget.error=-1", "budget.spp=0", "budget.spp=4.5", "farm.tile_size=0", "image.width=-1", "sampler.seed=-1",
           "guiding.bsdf_fraction=2", "guiding.spp_unit="})
-        expect_refusal("plan " + box() + " --set " + setting, {"--set ", "is not allowed; allowed: "});
+        expect_refusal("plan " + box_scene() + " --set " + setting, {"--set ", "is not allowed; allowed: "});
     for (const char* setting : {"budget.error=5%", "'budget.error = 0.05'", "budget.seconds=2min"})
-        EXPECT_EQ(test::run_treefarm("plan " + box() + " --set " + setting).code, 0) << setting;
+        EXPECT_EQ(test::run_treefarm("plan " + box_scene() + " --set " + setting).code, 0) << setting;
 }
 
 /// Budgets that others make void would be ignored in silence if they were accepted.
 TEST(Usage, ABudgetThatAnotherMakesVoidIsRefused) {
     expect_render_refuses("--set budget.spp=8 --seconds 1", {"--set budget.spp=8: budget.seconds decides", "max_spp"});
-    const test::Ended warned = test::run_treefarm("plan " + box() + " --set budget.max_spp=8");
+    const test::Ended warned = test::run_treefarm("plan " + box_scene() + " --set budget.max_spp=8");
     EXPECT_EQ(warned.code, 0);
     EXPECT_NE(warned.output.find("budget.max_spp has no effect without --seconds or --error"), std::string::npos)
         << warned.output;
@@ -109,9 +109,10 @@ TEST(Usage, UnknownOptionsNameTheNearest) {
     expect_render_refuses("--run-dri=x", {"--run-dri is no option of render; did you mean --run-dir?"});
     expect_render_refuses("-spp 4", {"did you mean --spp?"});
     expect_refusal("render --sponge", {"--sponge is no option of render"});
-    expect_refusal("plan " + box() + " --run-dir x", {"--run-dir is no option of plan; it is one of treefarm render"});
+    expect_refusal("plan " + box_scene() + " --run-dir x",
+                   {"--run-dir is no option of plan; it is one of treefarm render"});
     expect_refusal("--spp 4", {"--spp stands before the command"});
-    expect_refusal(box(), {"is a file, not a command; write treefarm render "});
+    expect_refusal(box_scene(), {"is a file, not a command; write treefarm render "});
     expect_refusal("''", {"no command is called \"\""});
     EXPECT_EQ(test::run_treefarm("").code, 2);
 }
@@ -186,7 +187,7 @@ TEST_F(WrongFiles, FormatsOfOthersSayHowToConvert) {
 
 TEST_F(WrongFiles, FilesOfSettingsCheckNumbersToo) {
     const auto job = [&](const std::string& line) {
-        return "plan " + write("job.toml", "scene.file = \"" + box() + "\"\n" + line + "\n");
+        return "plan " + write("job.toml", "scene.file = \"" + box_scene() + "\"\n" + line + "\n");
     };
     for (const char* line : {"budget.error = \"5%\"", "budget.seconds = \"2min\"", "budget.error = 0.05"})
         EXPECT_EQ(test::run_treefarm(job(line)).code, 0) << line;
@@ -196,7 +197,7 @@ TEST_F(WrongFiles, FilesOfSettingsCheckNumbersToo) {
     for (const char* line : {"warmup = -1", "seeds = 0", "seeds = 2.5", "seeds = [-1]"})
         expect_refusal(
             "study --dry-run " + write("study.toml", std::string(line) + "\nbudget.spp = 1\n[scene.a]\nfile = \"" +
-                                                         box() + "\"\n[reference]\nsampler.seed = 9\n"),
+                                                         box_scene() + "\"\n[reference]\nsampler.seed = 9\n"),
             {"study.toml:1:", "which is not allowed; give an integer from "});
 }
 
@@ -231,7 +232,7 @@ TEST_F(WrongFiles, JobsAndStudiesAreToldApart) {
                        {"demo.toml:", "is a key of studies", "write treefarm study "});
     expect_refusal("study --dry-run " + source + "/configs/jobs/door-ajar.toml",
                    {"door-ajar.toml:", "is a key of jobs", "write treefarm render "});
-    expect_refusal("study " + box(), {"is a scene", "write treefarm render "});
+    expect_refusal("study " + box_scene(), {"is a scene", "write treefarm render "});
     const std::string schedule = write("schedule.toml", "[[pass]]\nspp = 1\nnext_event = true\nrecord = false\n");
     expect_refusal("render " + schedule, {"schedule.toml:1:", "--schedule "});
     expect_refusal("study " + schedule, {"schedule.toml:1:", "--schedule "});

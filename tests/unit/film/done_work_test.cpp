@@ -10,14 +10,14 @@
 namespace treefarm {
 namespace {
 
-constexpr int kWidth = 23, kHeight = 17;
+constexpr int kFilmWidth = 23, kHeight = 17;
 constexpr std::uint32_t kChunks = 3;
 constexpr std::uint64_t kLightPaths = 50'000;
 
 using Atom = std::tuple<std::uint32_t, int, int>;  // chunk, x, y
 
 std::vector<WorkUnit> all_units(int tile) {
-    std::vector<WorkUnit> units = cut_tiles(2, kChunks, kWidth, kHeight, tile);
+    std::vector<WorkUnit> units = cut_tiles(2, kChunks, kFilmWidth, kHeight, tile);
     for (const WorkUnit& range : cut_range(2, UnitKind::light_paths, kLightPaths, 1000))
         units.push_back(range);
     return units;
@@ -36,10 +36,10 @@ void take(std::multiset<Atom>& atoms, const WorkUnit& unit) {
 TEST(DoneWork, WhatIsLeftAndWhatIsDoneAreTheWholeHoweverItIsCut) {
     for (unsigned seed = 0; seed < 20; ++seed) {
         std::mt19937 engine(seed);
-        DoneWork done(kWidth, kHeight, kChunks);
+        DoneWork done(kFilmWidth, kHeight, kChunks);
         std::multiset<Atom> atoms;
         for (int y = 0; y < kHeight; ++y)
-            for (int x = 0; x < kWidth; ++x)
+            for (int x = 0; x < kFilmWidth; ++x)
                 for (std::uint32_t c = 0; c < kChunks; ++c)
                     atoms.insert({c, x, y});
         std::uint64_t paths = 0, weight_done = 0;
@@ -65,15 +65,15 @@ TEST(DoneWork, WhatIsLeftAndWhatIsDoneAreTheWholeHoweverItIsCut) {
             }
         EXPECT_TRUE(atoms.empty());
         EXPECT_EQ(paths, kLightPaths);
-        EXPECT_TRUE(done.fits(kWidth * kHeight, kChunks, {0, kLightPaths, 0}));
-        EXPECT_FALSE(done.fits(kWidth * kHeight + 1, kChunks, {0, kLightPaths, 0}));
-        EXPECT_FALSE(done.fits(kWidth * kHeight, kChunks + 1, {0, kLightPaths, 0}));
-        EXPECT_EQ(done.fits(kWidth * kHeight, kChunks, {}), seed == 0) << "no ranges";
+        EXPECT_TRUE(done.fits(kFilmWidth * kHeight, kChunks, {0, kLightPaths, 0}));
+        EXPECT_FALSE(done.fits(kFilmWidth * kHeight + 1, kChunks, {0, kLightPaths, 0}));
+        EXPECT_FALSE(done.fits(kFilmWidth * kHeight, kChunks + 1, {0, kLightPaths, 0}));
+        EXPECT_EQ(done.fits(kFilmWidth * kHeight, kChunks, {}), seed == 0) << "no ranges";
     }
 }
 
 TEST(DoneWork, AUnitThatIsNotBegunIsLeftAsItIsAndADoneOneNot) {
-    DoneWork done(kWidth, kHeight, kChunks);
+    DoneWork done(kFilmWidth, kHeight, kChunks);
     const WorkUnit tile{0, 3, 4, 11, 9, 1}, range{.kind = UnitKind::chains, .first = 5, .count = 2};
     EXPECT_EQ(done.left_of(tile), std::vector{tile});
     EXPECT_EQ(done.left_of(range), std::vector{range});
@@ -81,7 +81,7 @@ TEST(DoneWork, AUnitThatIsNotBegunIsLeftAsItIsAndADoneOneNot) {
     done.add(range);
     EXPECT_TRUE(done.left_of(tile).empty());
     EXPECT_TRUE(done.left_of(range).empty());
-    EXPECT_FALSE(done.whole(4 * kWidth + 3)) << "its other chunks are not";
+    EXPECT_FALSE(done.whole(4 * kFilmWidth + 3)) << "its other chunks are not";
     const WorkUnit other{0, 3, 4, 11, 9, 2};
     EXPECT_EQ(done.left_of(other), std::vector{other});
 }

@@ -12,10 +12,10 @@
 namespace treefarm {
 namespace {
 
-constexpr std::size_t kPixels = 256;
+constexpr std::size_t kPixelCount = 256;
 
 PassResult make_pass(std::uint32_t spp, std::uint32_t before, double deviation, std::mt19937& engine,
-                     std::size_t pixels = kPixels) {
+                     std::size_t pixels = kPixelCount) {
     std::exponential_distribution<double> value;  // skewed: its variance says something of its mean
     PassResult pass{spp, before, std::vector<PixelEstimate>(pixels)};
     for (PixelEstimate& pixel : pass.pixels)
@@ -35,7 +35,7 @@ struct Folded {
     std::vector<PassResult> few, all;
 };
 
-Folded render(const std::vector<Kind>& kinds, unsigned seed, std::size_t pixels = kPixels) {
+Folded render(const std::vector<Kind>& kinds, unsigned seed, std::size_t pixels = kPixelCount) {
     std::mt19937 engine(seed);
     Folded passes;
     std::uint32_t before = 0;
@@ -120,7 +120,7 @@ TEST(FoldPasses, OfAlikePassesNothingIsLost) {
             // trees are weighed, a few percent here, and the last tree has nearly all the weight.
             for (std::size_t k = 0; k < all.weight.size(); ++k)
                 EXPECT_NEAR(few.weight[k], all.weight[k], guided ? 1e-3 : 1e-12) << k;
-            for (std::size_t p = 0; p < kPixels; ++p)
+            for (std::size_t p = 0; p < kPixelCount; ++p)
                 EXPECT_NEAR(few.mean[p].x, all.mean[p].x, guided && method != Combination::last ? 0.02 : 1e-12);
         }
 }
@@ -150,10 +150,10 @@ TEST(FoldPasses, MeanIsUnbiasedAndVarianceRight) {
                     kinds[k].deviation = same_tree ? 1 : std::max(1.0, 3 - 0.1 * static_cast<double>(k));
                 const CombinedImage image = combine_passes(render(kinds, 100 + run).few, method, true);
                 double mean = 0;
-                for (std::size_t p = 0; p < kPixels; ++p) {
-                    mean += image.mean[p].x / kPixels;
-                    expected += image.variance[p].x / (kPixels * kRuns);
-                    error += (image.mean[p].x - 1) * (image.mean[p].x - 1) / (kPixels * kRuns);
+                for (std::size_t p = 0; p < kPixelCount; ++p) {
+                    mean += image.mean[p].x / kPixelCount;
+                    expected += image.variance[p].x / (kPixelCount * kRuns);
+                    error += (image.mean[p].x - 1) * (image.mean[p].x - 1) / (kPixelCount * kRuns);
                 }
                 sum += mean / kRuns;
                 squares += mean * mean / kRuns;

@@ -18,13 +18,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path fresh(const std::string& name) {
+fs::path fresh_png(const std::string& name) {
     const fs::path folder = test::test_folder();
     fs::remove(folder / name);
     return folder / name;
 }
 
-std::string refusal(const fs::path& path) {
+std::string png_refusal(const fs::path& path) {
     return test::refusal_of([&] { read_ldr(path, Encoding::srgb); });
 }
 
@@ -37,7 +37,7 @@ TEST(Png, SrgbIsItsOwnInverse) {
 }
 
 TEST(Png, EveryValueBecomesTheNearestByte) {
-    const fs::path path = fresh("ramp.png");
+    const fs::path path = fresh_png("ramp.png");
     RgbImage image(500, 200);
     const auto count = static_cast<float>(image.pixels.size());
     for (std::size_t p = 0; p < image.pixels.size(); ++p) {
@@ -54,7 +54,7 @@ TEST(Png, EveryValueBecomesTheNearestByte) {
 }
 
 TEST(Png, WritesSrgbWithExposureAndReadsItBack) {
-    const fs::path path = fresh("a.png");
+    const fs::path path = fresh_png("a.png");
     RgbImage image(3, 2);
     image.pixels[0] =
         Rgb(srgb_decode(10.0f / 255.0f), srgb_decode(128.0f / 255.0f), srgb_decode(200.0f / 255.0f)) * 0.5f;
@@ -77,28 +77,28 @@ TEST(Png, WritesSrgbWithExposureAndReadsItBack) {
 }
 
 TEST(Png, RefusesWhatIsNoImageAndNamesTheFile) {
-    const fs::path path = fresh("bad.png");
-    EXPECT_NE(refusal(path).find("bad.png: no such file"), std::string::npos);
+    const fs::path path = fresh_png("bad.png");
+    EXPECT_NE(png_refusal(path).find("bad.png: no such file"), std::string::npos);
     std::ofstream(path) << "GIF89a and more text";
-    EXPECT_NE(refusal(path).find("bad.png: is neither PNG nor JPEG"), std::string::npos) << refusal(path);
+    EXPECT_NE(png_refusal(path).find("bad.png: is neither PNG nor JPEG"), std::string::npos) << png_refusal(path);
     std::ofstream(path, std::ios::trunc) << "";
-    EXPECT_NE(refusal(path).find("bad.png"), std::string::npos);
+    EXPECT_NE(png_refusal(path).find("bad.png"), std::string::npos);
 }
 
 TEST(Png, RefusesTruncation) {
-    const fs::path path = fresh("a.png"), cut = fresh("cut.png");
+    const fs::path path = fresh_png("a.png"), cut = fresh_png("cut.png");
     write_png(path, RgbImage(40, 30, Rgb(0.3f)));
     std::ifstream file(path, std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     for (std::size_t size = 0; size + 20 < bytes.size(); size += 5) {  // the last 20 bytes hold no pixels
         std::ofstream(cut, std::ios::binary) << bytes.substr(0, size);
-        EXPECT_NE(refusal(cut).find("cut.png"), std::string::npos) << "cut to " << size << " of " << bytes.size();
+        EXPECT_NE(png_refusal(cut).find("cut.png"), std::string::npos) << "cut to " << size << " of " << bytes.size();
     }
 }
 
 TEST(Png, WritingReportsWhatFailed) {
-    EXPECT_THROW(write_png(fresh("no") / "folder" / "a.png", RgbImage(1, 1)), RunError);
-    EXPECT_THROW(write_png(fresh("empty.png"), RgbImage()), RunError);
+    EXPECT_THROW(write_png(fresh_png("no") / "folder" / "a.png", RgbImage(1, 1)), RunError);
+    EXPECT_THROW(write_png(fresh_png("empty.png"), RgbImage()), RunError);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace treefarm {
 namespace {
 
 const std::string kVertices = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
-const std::string kFaces = "element face 1\nproperty list uchar int vertex_indices\n";
+const std::string kPlyFaces = "element face 1\nproperty list uchar int vertex_indices\n";
 const std::string kPoints = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
 
 std::string ascii(const std::string& header, const std::string& body) {
@@ -20,7 +20,7 @@ std::string message_of(const std::string& bytes) {
     return test::refusal_of([&] { parse_ply(bytes, "m.ply"); }, "no error");
 }
 
-void expect_refused(const std::string& bytes, const std::string& begin) {
+void expect_ply_refused(const std::string& bytes, const std::string& begin) {
     EXPECT_EQ(message_of(bytes).substr(0, begin.size()), begin) << message_of(bytes);
 }
 
@@ -43,13 +43,13 @@ TEST(Ply, ColoursOfVerticesAndFaces) {
     EXPECT_EQ(vertices->values[1], Rgb(1, 0, 0));
     EXPECT_EQ(faces->values, (std::vector<Rgb>{Rgb(1, 2, 3), Rgb(0.25f, 0.5f, -0.5f), Rgb(0.25f, 0.5f, -0.5f)}))
         << "floats are linear; a polygon's colour is that of all its triangles";
-    EXPECT_TRUE(parse_ply(ascii(kVertices + kFaces, kPoints + "4 0 1 2 3\n"), "m.ply").attributes.empty());
+    EXPECT_TRUE(parse_ply(ascii(kVertices + kPlyFaces, kPoints + "4 0 1 2 3\n"), "m.ply").attributes.empty());
 }
 
 TEST(Ply, AnAttributeThatIsNoNumberMattersToWhoAsksForItOnly) {
     const Mesh mesh = parse_ply(ascii("element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
                                       "property float wear_0\nproperty uchar age_0\n" +
-                                          kFaces,
+                                          kPlyFaces,
                                       "0 0 0 nan 0\n1 0 0 -inf x\n0 1 0 1 255\n3 0 1 2\n"),
                                 "m.ply");
     EXPECT_TRUE(std::isnan(mesh.find_attribute("vertex_wear")->values.at(0).x));
@@ -100,7 +100,7 @@ TEST(Ply, AsciiWithWhatNobodyAsksFor) {
 }
 
 TEST(Ply, AsciiWithWindowsLineEndsAndNoLastOne) {
-    std::string text = ascii(kVertices + kFaces, kPoints + "3 0 1 2");
+    std::string text = ascii(kVertices + kPlyFaces, kPoints + "3 0 1 2");
     std::string windows;
     for (const char c : text)
         windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
@@ -145,78 +145,78 @@ TEST(Ply, EveryTypeInBothByteOrders) {
 
 TEST(Ply, NamesOfTextureCoordinates) {
     for (const auto& [u, v] : {std::pair("u", "v"), std::pair("s", "t"), std::pair("texture_u", "texture_v")}) {
-        const std::string header = kVertices + "property float " + v + "\nproperty float " + u + "\n" + kFaces;
+        const std::string header = kVertices + "property float " + v + "\nproperty float " + u + "\n" + kPlyFaces;
         const Mesh mesh = parse_ply(ascii(header, "0 0 0 .5 .25\n1 0 0 0 0\n1 1 0 0 0\n0 1 0 0 0\n3 0 1 2\n"), "m.ply");
         ASSERT_EQ(mesh.uvs.size(), 4u) << u;
         EXPECT_EQ(mesh.uvs[0], Vec2(0.25f, 0.5f));
     }
     // Half of a pair is none.
     EXPECT_TRUE(
-        parse_ply(ascii(kVertices + "property float u\n" + kFaces, "0 0 0 1\n1 0 0 1\n1 1 0 1\n0 1 0 1\n3 0 1 2\n"),
+        parse_ply(ascii(kVertices + "property float u\n" + kPlyFaces, "0 0 0 1\n1 0 0 1\n1 1 0 1\n0 1 0 1\n3 0 1 2\n"),
                   "m.ply")
             .uvs.empty());
 }
 
 TEST(Ply, PolygonsAreCut) {
-    const Mesh mesh = parse_ply(ascii(kVertices + kFaces, kPoints + "4 0 1 2 3\n"), "m.ply");
+    const Mesh mesh = parse_ply(ascii(kVertices + kPlyFaces, kPoints + "4 0 1 2 3\n"), "m.ply");
     EXPECT_EQ(mesh.indices, (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}));
 }
 
 TEST(Ply, HeaderErrorsHaveTheirLine) {
-    expect_refused("", "m.ply:");
-    expect_refused("solid\n", "m.ply:1:1: this is no PLY file");
-    expect_refused("ply\nformat ascii 2.0\n", "m.ply:2:14: unknown version");
-    expect_refused("ply\nformat text 1.0\n", "m.ply:2:8: unknown format");
-    expect_refused("ply\nelement vertex 3\n", "m.ply:2:1: the second line");
-    expect_refused("ply\nformat ascii 1.0\nelement vertex\n", "m.ply:3:1: an element has");
-    expect_refused("ply\nformat ascii 1.0\nelement vertex -3\n", "m.ply:3:16: \"-3\" is no count");
-    expect_refused("ply\nformat ascii 1.0\nproperty float x\n", "m.ply:3:1: a property stands before");
-    expect_refused(ascii(kVertices + "property flaot u\n", ""), "m.ply:7:10: unknown type \"flaot\"");
-    expect_refused(ascii(kVertices + "property float x\n", ""), "m.ply:7:16: the property \"x\" is declared twice");
-    expect_refused(ascii(kVertices + "property list float int l\n", ""), "m.ply:7:15: the length of a list");
-    expect_refused(ascii(kVertices + kVertices, ""), "m.ply:7:9: the element \"vertex\" is declared twice");
-    expect_refused("ply\nformat ascii 1.0\n" + kVertices + kFaces, "m.ply:8:1: the header has no end");
-    expect_refused(ascii("elemant vertex 3\n", ""), "m.ply:3:1: \"elemant\" is no statement");
-    expect_refused(ascii(kVertices, kPoints), "m.ply:1:1: the file has no element \"face\"");
-    expect_refused(ascii(kFaces + kVertices, "3 0 1 2\n" + kPoints), "m.ply:3:1: the faces stand before");
-    expect_refused(
+    expect_ply_refused("", "m.ply:");
+    expect_ply_refused("solid\n", "m.ply:1:1: this is no PLY file");
+    expect_ply_refused("ply\nformat ascii 2.0\n", "m.ply:2:14: unknown version");
+    expect_ply_refused("ply\nformat text 1.0\n", "m.ply:2:8: unknown format");
+    expect_ply_refused("ply\nelement vertex 3\n", "m.ply:2:1: the second line");
+    expect_ply_refused("ply\nformat ascii 1.0\nelement vertex\n", "m.ply:3:1: an element has");
+    expect_ply_refused("ply\nformat ascii 1.0\nelement vertex -3\n", "m.ply:3:16: \"-3\" is no count");
+    expect_ply_refused("ply\nformat ascii 1.0\nproperty float x\n", "m.ply:3:1: a property stands before");
+    expect_ply_refused(ascii(kVertices + "property flaot u\n", ""), "m.ply:7:10: unknown type \"flaot\"");
+    expect_ply_refused(ascii(kVertices + "property float x\n", ""), "m.ply:7:16: the property \"x\" is declared twice");
+    expect_ply_refused(ascii(kVertices + "property list float int l\n", ""), "m.ply:7:15: the length of a list");
+    expect_ply_refused(ascii(kVertices + kVertices, ""), "m.ply:7:9: the element \"vertex\" is declared twice");
+    expect_ply_refused("ply\nformat ascii 1.0\n" + kVertices + kPlyFaces, "m.ply:8:1: the header has no end");
+    expect_ply_refused(ascii("elemant vertex 3\n", ""), "m.ply:3:1: \"elemant\" is no statement");
+    expect_ply_refused(ascii(kVertices, kPoints), "m.ply:1:1: the file has no element \"face\"");
+    expect_ply_refused(ascii(kPlyFaces + kVertices, "3 0 1 2\n" + kPoints), "m.ply:3:1: the faces stand before");
+    expect_ply_refused(
         ascii(kVertices + "element face 1\nproperty list uchar float vertex_indices\n", kPoints + "3 0 1 2\n"),
         "m.ply:8:1: the vertices of faces are no integers");
-    expect_refused(ascii(kVertices + "element face 1\nproperty int vertex_indices\n", kPoints + "3\n"),
-                   "m.ply:8:1: the faces have no list");
-    expect_refused(ascii("element vertex 1\nproperty float x\nproperty float y\n" + kFaces, "0 0\n3 0 0 0\n"),
-                   "m.ply:3:1: the vertices have no x, y and z");
+    expect_ply_refused(ascii(kVertices + "element face 1\nproperty int vertex_indices\n", kPoints + "3\n"),
+                       "m.ply:8:1: the faces have no list");
+    expect_ply_refused(ascii("element vertex 1\nproperty float x\nproperty float y\n" + kPlyFaces, "0 0\n3 0 0 0\n"),
+                       "m.ply:3:1: the vertices have no x, y and z");
 }
 
 TEST(Ply, TextErrorsHaveTheirLocation) {
-    const std::string header = kVertices + kFaces;  // the data begin in line 10
+    const std::string header = kVertices + kPlyFaces;  // the data begin in line 10
     EXPECT_EQ(message_of(ascii(header, "0 0 0\n1 zero 0\n1 1 0\n0 1 0\n3 0 1 2\n")),
               "m.ply:11:3: \"zero\" is not a number; write a finite decimal number");
-    expect_refused(ascii(header, "0 0 nan\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n"), "m.ply:10:5: \"nan\"");
-    expect_refused(ascii(header, "0 0 1e39\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n"), "m.ply:10:5: a vertex has a value");
-    expect_refused(ascii(header, "0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n"), "m.ply:10:4: a value is missing");
-    expect_refused(ascii(header, "0 0 0 7\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n"), "m.ply:10:7: there are more values");
-    expect_refused(ascii(header, kPoints + "3 0 1 4\n"), "m.ply:14:7: vertex 4 of 4");
-    expect_refused(ascii(header, kPoints + "3 0 1 -1\n"), "m.ply:14:7: vertex -1 of 4");
-    expect_refused(ascii(header, kPoints + "3 0 1 1.5\n"), "m.ply:14:7: \"1.5\" is not an integer");
-    expect_refused(ascii(header, kPoints + "2 0 1\n"), "m.ply:14:1: a face of 2 corners");
-    expect_refused(ascii(header, kPoints + "-3 0 1 2\n"), "m.ply:14:1: a list of -3 values");
-    expect_refused(ascii(header, kPoints + "4000000000 0 1 2\n"), "m.ply:14:1: a list of 4000000000 values");
-    expect_refused(ascii(header, kPoints + "3 0 1 2\n3 0 1 2\n"), "m.ply:15:1: there is more in the file");
+    expect_ply_refused(ascii(header, "0 0 nan\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n"), "m.ply:10:5: \"nan\"");
+    expect_ply_refused(ascii(header, "0 0 1e39\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n"), "m.ply:10:5: a vertex has a value");
+    expect_ply_refused(ascii(header, "0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n"), "m.ply:10:4: a value is missing");
+    expect_ply_refused(ascii(header, "0 0 0 7\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n"), "m.ply:10:7: there are more values");
+    expect_ply_refused(ascii(header, kPoints + "3 0 1 4\n"), "m.ply:14:7: vertex 4 of 4");
+    expect_ply_refused(ascii(header, kPoints + "3 0 1 -1\n"), "m.ply:14:7: vertex -1 of 4");
+    expect_ply_refused(ascii(header, kPoints + "3 0 1 1.5\n"), "m.ply:14:7: \"1.5\" is not an integer");
+    expect_ply_refused(ascii(header, kPoints + "2 0 1\n"), "m.ply:14:1: a face of 2 corners");
+    expect_ply_refused(ascii(header, kPoints + "-3 0 1 2\n"), "m.ply:14:1: a list of -3 values");
+    expect_ply_refused(ascii(header, kPoints + "4000000000 0 1 2\n"), "m.ply:14:1: a list of 4000000000 values");
+    expect_ply_refused(ascii(header, kPoints + "3 0 1 2\n3 0 1 2\n"), "m.ply:15:1: there is more in the file");
 }
 
 TEST(Ply, HugeCountsAreRefusedAtOnce) {
     for (const char* format : {"ascii", "binary_little_endian"}) {
         const std::string begin = std::string("ply\nformat ") + format + " 1.0\n";
-        expect_refused(
+        expect_ply_refused(
             begin + "element vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\nend_header\n",
             "m.ply:3:1: 4000000000 elements \"vertex\" do not fit into the 0 bytes");
-        expect_refused(begin + "element vertex 18446744073709551615\nproperty char x\nend_header\n12",
-                       "m.ply:3:1: 18446744073709551615 elements");
+        expect_ply_refused(begin + "element vertex 18446744073709551615\nproperty char x\nend_header\n12",
+                           "m.ply:3:1: 18446744073709551615 elements");
     }
     // Elements without properties take no place, so nothing walks over them.
     EXPECT_EQ(
-        parse_ply(ascii("element nothing 18446744073709551615\n" + kVertices + kFaces, kPoints + "3 0 1 2\n"), "m")
+        parse_ply(ascii("element nothing 18446744073709551615\n" + kVertices + kPlyFaces, kPoints + "3 0 1 2\n"), "m")
             .indices.size(),
         3u);
 }
@@ -227,15 +227,16 @@ TEST(Ply, BinaryErrorsHaveTheirByte) {
     std::string damaged = whole;
     const float inf = std::numeric_limits<float>::infinity();
     std::memcpy(damaged.data() + body + 9, &inf, 4);  // after red and x: y
-    expect_refused(damaged, "m.ply: a vertex has a value that is not finite in single precision (at byte " +
-                                std::to_string(body + 9) + ")");
+    expect_ply_refused(damaged, "m.ply: a vertex has a value that is not finite in single precision (at byte " +
+                                    std::to_string(body + 9) + ")");
     damaged = whole;
     damaged[damaged.size() - 4] = 4;  // the last index
-    expect_refused(damaged, "m.ply: vertex 4 of 4 (at byte " + std::to_string(whole.size() - 4) + ")");
-    expect_refused(whole.substr(0, whole.size() - 1), "m.ply: a list of 3 values does not fit into the file (at byte " +
-                                                          std::to_string(whole.size() - 13));
-    expect_refused(whole + "x", "m.ply: there is more in the file than the header says (at byte " +
-                                    std::to_string(whole.size()) + ")");
+    expect_ply_refused(damaged, "m.ply: vertex 4 of 4 (at byte " + std::to_string(whole.size() - 4) + ")");
+    expect_ply_refused(
+        whole.substr(0, whole.size() - 1),
+        "m.ply: a list of 3 values does not fit into the file (at byte " + std::to_string(whole.size() - 13));
+    expect_ply_refused(whole + "x", "m.ply: there is more in the file than the header says (at byte " +
+                                        std::to_string(whole.size()) + ")");
     EXPECT_EQ(parse_ply(whole + "\n", "m.ply").indices.size(), 12u);
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "common/base/error.h"
@@ -12,12 +11,13 @@
 #include "common/metrics/flip/colour.h"
 #include "common/metrics/flip/measure_flip.h"
 #include "tests/support/direct_flip.h"
+#include "tests/support/small_image.h"
 
 namespace treefarm {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInf = std::numeric_limits<float>::infinity();
+using test::kInf;
+using test::kNan;
 
 /// colour(x, y, channel) in every pixel.
 template <class Colour>

@@ -2,23 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "common/base/error.h"
 #include "common/metrics/difference.h"
 #include "common/metrics/error_metrics.h"
+#include "tests/support/small_image.h"
 
 namespace treefarm {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInf = std::numeric_limits<float>::infinity();
-
-RgbImage image_of(int width, int height, const std::vector<Rgb>& pixels) {
-    RgbImage image(width, height);
-    image.pixels = pixels;
-    return image;
-}
+using test::image_of;
+using test::kInf;
+using test::kNan;
 
 TEST(ErrorMetrics, AgreesWithHandComputedValues) {
     const RgbImage a = image_of(2, 1, {Rgb(1.0f, 0.5f, 0.0f), Rgb(2.0f, 2.0f, 2.0f)});

@@ -4,24 +4,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "common/base/error.h"
 #include "common/base/random.h"
 #include "common/metrics/normal_distribution.h"
+#include "tests/support/small_image.h"
 
 namespace treefarm {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInf = std::numeric_limits<float>::infinity();
-
-RgbImage image_of(int width, int height, const std::vector<Rgb>& pixels) {
-    RgbImage image(width, height);
-    image.pixels = pixels;
-    return image;
-}
+using test::image_of;
+using test::kInf;
+using test::kNan;
 
 /// A standard normal number (Box and Muller 1958) for (pixel, channel).
 double normal(std::uint64_t seed, std::size_t pixel, int channel) {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "common/runs/run_json.h"
+#include "coordinator/render/finished_render.h"
 #include "coordinator/run/folder_content.h"
 #include "coordinator/run/pass_record.h"
-#include "coordinator/shot/finished_frame.h"
 #include "report/run_results.h"
 #include "serve/pass_table.h"
 #include "tests/support/command.h"
@@ -199,9 +199,7 @@ TEST(StoredRuns, AreReportedListedAndKnownAsDone) {
     EXPECT_EQ(results.cells[0].made.source, written["build"]["source"]);
     EXPECT_EQ(folder_content(stored("render")), FolderContent::render);
     EXPECT_EQ(render_words(stored("render")), "done, " + written["spp"].dump() + " spp");
-    FrameRecord record;
-    read_figures(stored("render"), record);
-    EXPECT_EQ(record.error, written["image_error"]["relative"].get<double>());
+    EXPECT_EQ(read_figures(stored("render")).error, written["image_error"]["relative"].get<double>());
     EXPECT_EQ(pass_table(text_of(stored("render") / kPassesFile)).size(), written["passes"].size());
 }
 

@@ -12,13 +12,14 @@
 #include <vector>
 
 #include "tests/support/arrow_table.h"
+#include "tests/support/source_root.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 using namespace treefarm::test::arrows;
 
-const fs::path kRoot = TREEFARM_SOURCE_DIR;
+using treefarm::test::kRoot;
 
 struct Include {
     std::string target;

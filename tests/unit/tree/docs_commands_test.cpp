@@ -14,13 +14,14 @@
 #include "common/image/exr.h"
 #include "tests/support/command.h"
 #include "tests/support/markdown.h"
+#include "tests/support/source_root.h"
 
 namespace treefarm {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = TREEFARM_SOURCE_DIR;
+using test::kRoot;
 const std::string kProgram = TREEFARM_PROGRAM;
 
 /// A command that a page shows: "render" and what stands behind it.

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "tests/support/markdown.h"
+#include "tests/support/source_root.h"
 #include "tests/support/test_folder.h"
 
 namespace treefarm {
@@ -17,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = TREEFARM_SOURCE_DIR;
+using test::kRoot;
 
 std::string name_of(const fs::path& file) {
     return fs::relative(file, kRoot).string();

@@ -8,15 +8,16 @@
 #include <vector>
 
 #include "tests/support/command.h"
+#include "tests/support/source_root.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = TREEFARM_SOURCE_DIR;
+using treefarm::test::kRoot;
 constexpr int kMostLines = 400;
 
-std::vector<fs::path> sources() {
+std::vector<fs::path> formatted_sources() {
     std::vector<fs::path> files;
     for (const char* folder : {"common", "coordinator", "worker", "report", "serve", "cli", "tests", "bench"}) {
         if (!fs::exists(kRoot / folder)) continue;
@@ -48,7 +49,7 @@ int count_lines(const fs::path& file) {
 
 TEST(Format, EverySourceIsFormatted) {
     if (!have_clang_format()) GTEST_SKIP() << "clang-format is not installed: run deploy/install";
-    const auto files = sources();
+    const auto files = formatted_sources();
     ASSERT_GT(files.size(), 20u) << "no sources below " << kRoot;
     const treefarm::test::Ended outcome = clang_format(files);
     EXPECT_EQ(outcome.code, 0) << "run clang-format -i on:\n" << outcome.output.substr(0, 4000);
@@ -67,7 +68,7 @@ TEST(Format, TheCheckSeesABadFile) {
 }
 
 TEST(Format, FilesStaySmall) {
-    for (const fs::path& file : sources())
+    for (const fs::path& file : formatted_sources())
         EXPECT_LE(count_lines(file), kMostLines) << fs::relative(file, kRoot) << ": split it by concept";
 }
 
