@@ -18,7 +18,7 @@ namespace {
 
 const Location kHere{"--debug-sample", 0, 0};
 
-/// As many numbers, separated by commas; InputError if the text is not that.
+/// Numbers separated by commas, `count` of them; throws InputError for other texts.
 std::vector<std::uint32_t> parse_numbers(const std::string& text, std::size_t count) {
     std::vector<std::uint32_t> values(count);
     const char* at = text.data();

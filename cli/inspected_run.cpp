@@ -26,10 +26,10 @@ void check_directory(const std::filesystem::path& directory) {
                "wait for it, or render again");
 }
 
-/// The text of a key in summary.json.
+/// Text value of a key in summary.json.
 std::string summary_text(const RunJson& summary, const std::filesystem::path& file, RunKey key) {
     if (!text_of(summary, key).is_string())
-        refuse(file, std::string("says nothing of ") + key.name() + ", so another version wrote it", "render again");
+        refuse(file, std::string("lacks ") + key.name() + ", so another version wrote it", "render again");
     return text_in(summary, key);
 }
 

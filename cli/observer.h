@@ -9,11 +9,11 @@
 
 namespace treefarm {
 
-/// Tells a person what a render says, and a supervisor (nullptr: there is none) that it gets on.
+/// Observer that prints a render's messages for the user, and reports its progress to a supervisor (nullptr: none).
 RenderObserver make_observer(const LogOutput& voice, const std::shared_ptr<SignOfLife>& life);
 
-/// A series of renders, which speaks on the console and has a line for each of them: what happens within is told where
-/// every figure was asked for, and otherwise no more than errors.
+/// Context of a series of renders with one console line per render; details of a render are printed only if verbose,
+/// otherwise its errors.
 SeriesContext make_series(const RenderOrigin& origin, const RenderWorkers& workers, const LogOutput& voice,
                           const Log& log, const std::shared_ptr<SignOfLife>& life);
 

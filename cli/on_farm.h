@@ -24,7 +24,7 @@ struct CoordinatorEnd {
 
 /// The coordinator's part of a command, between the start of the workers and their dismissal.
 struct FarmTask {
-    std::function<void()> prepare;  ///< reads and checks the input; without mpirun a signal breaks it off
+    std::function<void()> prepare;  ///< reads and checks the input; without mpirun a signal interrupts it
     std::function<CoordinatorEnd(const RenderWorkers&)> coordinate;
 };
 
@@ -41,21 +41,21 @@ void add_log_options(CLI::App& command, FarmOptions& options);
 /// Adds --threads, --quiet, --verbose, --start-seconds
 void add_farm_options(CLI::App& command, FarmOptions& options);
 
-/// The voice of this process: where it speaks, and how much it says.
+/// Console output of this process: its stream and verbosity.
 struct LogOutput {
     ConsolePtr console;
     Verbosity verbosity = Verbosity::normal;
 };
 LogOutput make_log_output(const LaunchEnvironment& launch, const FarmOptions& options);
 
-/// Only what goes wrong, and no status.
+/// Output of errors only, without a status line.
 LogOutput errors_only();
 
-/// A worker in this process. `threads`: 0: its processors.
+/// Worker in this process. `threads`: 0: its processors.
 LocalWorker local_worker(unsigned threads, const LogOutput& log_output);
 
-/// Runs the task over all processes of the MPI job, or over coordinator and one worker in this process. Returns the
-/// exit code; InputError and RunError leave it in one process only.
+/// Runs the task over all processes of the MPI job, or as coordinator and one worker in this process. Returns the exit
+/// code; InputError and RunError leave it in one process only.
 int run_on_farm(const LaunchEnvironment& launch, const FarmOptions& options, const LogOutput& log_output,
                 const FarmTask& task);
 

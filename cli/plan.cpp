@@ -39,7 +39,7 @@ std::pair<RenderRequest, double> smaller_request(const PlanOptions& options, con
     if (scale >= 1) return {whole, 1.0};
     RenderOptions smaller = options.render;
     const auto pixels = [&](double side) { return std::to_string(static_cast<int>(std::ceil(scale * side))); };
-    // The size that a job sets is that of the whole film.
+    // A job's size is that of the whole film.
     smaller.set.push_back("image.width=" + pixels(whole.content.scene.film.whole_width()));
     smaller.set.push_back("image.height=" + pixels(whole.content.scene.film.whole_height()));
     RenderInput input = render_input(smaller);

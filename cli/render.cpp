@@ -18,7 +18,7 @@ namespace treefarm {
 
 namespace {
 
-/// A sample is traced in one process.
+/// Runs --debug-sample, in one process.
 void debug(const LaunchEnvironment& launch, const RenderOptions& options) {
     if (launch.rank != 0) return;
     if (launch.under_mpi)
@@ -89,11 +89,11 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
     command->add_flag("--overwrite", options->overwrite,
                       "replace the render that the folder holds, once this one is done");
     command->add_flag("--resume", options->resume,
-                      "go on with what the folder holds of this very render, if anything; what is done stays");
+                      "resume this render from the folder's content, if there is any; a finished one is kept");
     add_display_option(*command, options->display_server);
     add_farm_options(*command, options->farm);
     add_text_option(*command, "--debug-sample", options->debug_sample,
-                    "pass,x,y,sample: trace this sample and tell its story; pass,x0,y0,x1,y1,chunk: trace this tile");
+                    "pass,x,y,sample: trace this sample and print its path; pass,x0,y0,x1,y1,chunk: trace this tile");
     command->footer(std::string(kDefaultsText) + "\n" + kExitCodesText);
     command->callback([options, launch, &exit_code] {
         const auto read = [&] { return read_request(*options); };

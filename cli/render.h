@@ -41,7 +41,8 @@ struct RenderOptions {
 void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const std::string& command_line,
                         int& exit_code);
 
-/// Lets a request that was read continue what lies in its folder. Returns the outcome where its result is there.
+/// Callback that lets a request resume from the content of its folder. Returns the outcome if the result exists
+/// already.
 using GoOn = std::function<std::optional<RenderOutcome>(RenderRequest&)>;
 
 /// Renders the request that `read` returns on all processes of the job, whatever this one's role; `name` is shown while
@@ -49,13 +50,13 @@ using GoOn = std::function<std::optional<RenderOutcome>(RenderRequest&)>;
 int render_on_farm(const LaunchEnvironment& launch, const FarmOptions& farm, const std::string& name,
                    const std::function<RenderRequest()>& read, const GoOn& go_on = {});
 
-/// What the options name, to be read. Throws InputError.
+/// Input that the options name. Throws InputError.
 RenderInput render_input(const RenderOptions& options);
 
-/// This program, and the command that asked it.
+/// Origin with this program and its command.
 RenderOrigin render_origin(const RenderOptions& options);
 
-/// Reads a request, and sets what it is to leave. Throws InputError.
+/// Reads a request, and sets its storage. Throws InputError.
 RenderRequest read_request(const RenderOptions& options);
 
 }  // namespace treefarm

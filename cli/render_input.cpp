@@ -25,17 +25,17 @@ Setting define_setting(const std::string& define) {
     return option_setting("-D", kDefinesPrefix + define.substr(0, equals), define.substr(equals + 1));
 }
 
-/// The command that traces one sample again, but for the sample.
+/// Command that traces one sample again, without the sample's name.
 std::string debug_command(const RenderOptions& options) {
-    std::error_code error;  // whole paths, so that it can be pasted anywhere
+    std::error_code error;  // absolute paths, so that the command works from any folder
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-    std::string text = shell_quoted(error ? "treefarm" : program.string()) + " render " +
-                       shell_quoted(std::filesystem::absolute(options.input).string());
+    std::string text = shell_quoted(error ? "treefarm" : program.string()) + " render ";
+    text += shell_quoted(std::filesystem::absolute(options.input, error).string());  // "" stays ""
     for (const std::string& argument : options.set)
         text += " --set " + shell_quoted(argument);
     for (const std::string& define : options.defines)
         text += " -D " + shell_quoted(define);
-    // --spp, --seconds and --error are left out: the passes that they led to come as a schedule.
+    // --spp, --seconds and --error are omitted: their passes are listed in a schedule.
     if (!options.budget.schedule.empty())
         text += " --schedule " + shell_quoted(std::filesystem::absolute(options.budget.schedule).string());
     if (!options.sensor.empty()) text += " --sensor " + shell_quoted(options.sensor);

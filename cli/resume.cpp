@@ -7,16 +7,17 @@
 
 #include "cli/option_values.h"
 #include "cli/render.h"
+#include "common/runs/run_files.h"
 #include "coordinator/render/resume.h"
 
 namespace treefarm {
 
 namespace {
 
-/// treefarm resume RUN_DIR
+/// Options of treefarm resume RUN_DIR
 struct ResumeOptions {
     std::string run;
-    RenderOptions render;  ///< of the render that goes on
+    RenderOptions render;  ///< of the resumed render
 };
 
 RenderRequest read(const ResumeOptions& options) {
@@ -32,8 +33,7 @@ void add_resume_command(CLI::App& app, const LaunchEnvironment& launch, const st
     const auto options = std::make_shared<ResumeOptions>();
     RenderOptions& render = options->render;
     render.command = command_line;
-    CLI::App* command =
-        app.add_subcommand("resume", "Goes on with a render that was broken off, or adds samples to it");
+    CLI::App* command = app.add_subcommand("resume", "Resumes an unfinished render, or adds samples to a finished one");
     command->add_option("run", options->run, "its run directory")->required();
     add_text_option(*command, "-o,--output", render.output,
                     "also write the image here (default: where the render would have)");
@@ -50,7 +50,7 @@ void add_resume_command(CLI::App& app, const LaunchEnvironment& launch, const st
         kExitCodesText);
     command->callback([options, launch, &exit_code] {
         const std::filesystem::path run(options->run);
-        options->render.input = (run / "job.toml").string();
+        options->render.input = (run / kJobFile).string();
         exit_code = render_on_farm(launch, options->render.farm, run.filename(), [&] { return read(*options); });
     });
 }

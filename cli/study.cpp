@@ -9,6 +9,7 @@
 #include "cli/observer.h"
 #include "cli/option_values.h"
 #include "cli/this_build.h"
+#include "common/runs/run_files.h"
 #include "coordinator/render/input_kind.h"
 #include "coordinator/study/study_run.h"
 #include "report/figure_export.h"
@@ -101,7 +102,7 @@ void report(ReportOptions& options) {
     std::vector<std::filesystem::path> runs, studies;
     for (const std::string& folder : options.folders) {
         const bool is_run =
-            !std::filesystem::exists(std::filesystem::path(folder) / "study.json") && is_run_folder(folder);
+            !std::filesystem::exists(std::filesystem::path(folder) / kStudyFile) && is_run_folder(folder);
         (is_run ? runs : studies).emplace_back(folder);
     }
     const bool several = studies.size() + !runs.empty() > 1;

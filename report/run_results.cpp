@@ -24,7 +24,7 @@ struct Run {
     Settings settings;  ///< keys of job.toml without seed, budget and image size
 };
 
-/// job.toml as this program writes it: [section] lines, then key = value.
+/// Settings of a job.toml in the form that this program writes: [section] lines, then key = value.
 Settings read_settings(const std::filesystem::path& file) {
     Settings settings;
     std::ifstream in(file);

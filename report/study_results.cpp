@@ -35,7 +35,7 @@ std::map<std::string, double> numbers(const Json& object) {
     return values;
 }
 
-/// Folders of earlier versions do not know how far a forecast was trusted, and have none of the target.
+/// Forecast of a pass; folders of earlier versions have no trust, and no forecast of the target.
 Prediction read_prediction(const RunJson& forecast) {
     return {number_in(forecast, "seconds", kNone), text_in(forecast, "trust")};
 }

@@ -13,7 +13,7 @@ using FileJson = RunJson;
 /// The object that a file of a run holds (parse_run_json()); an empty one where it holds none.
 FileJson read_object(const ConfinedFolder& root, const std::string& path);
 
-/// Text of a JSON value, bytes that are no UTF-8 replaced.
+/// Text of a JSON value; invalid UTF-8 is replaced.
 std::string json_text(const FileJson& json);
 
 }  // namespace treefarm

@@ -58,7 +58,7 @@ RunFiles read_files(const ConfinedFolder& root, const std::string& path, const H
     files.status = read_object(root, joined_path(path, kStatusFile));
     files.state = state_of(files.status, here);
     files.summary = read_object(root, joined_path(path, kSummaryFile));
-    // Until the end it is of an earlier life of the run.
+    // Before the end, summary.json is from before a resume.
     if (files.summary.value("state", FileJson()) != files.status.value("state", FileJson()))
         files.summary = FileJson::object();
     return files;
@@ -76,7 +76,7 @@ void add_numbers(FileJson& view, const FileJson& object, std::initializer_list<R
         view[key.name()] = number_of(object, key);
 }
 
-/// The folder's name; of the root its own.
+/// Name of the folder; for the root, its own.
 std::string title_of(const ConfinedFolder& root, const std::string& path) {
     std::error_code error;
     std::filesystem::path whole = path;

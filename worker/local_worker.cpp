@@ -18,7 +18,7 @@ WorkerSettings worker_here(unsigned threads, std::uint64_t fingerprint) {
 
 void run_local_worker(Channel& own, unsigned threads, std::uint64_t fingerprint, const Log& log) {
     WorkerSettings settings = worker_here(threads, fingerprint);
-    settings.silence_seconds = 1e9;  // nobody is gone who is in the same process
+    settings.silence_seconds = 1e9;  // a worker in the same process is never lost
     try {
         run_worker(own, settings, make_renderer, log);
     } catch (const std::exception& error) {

@@ -8,11 +8,11 @@
 
 namespace treefarm {
 
-/// Settings of a worker on this host. `threads`: 0: as many as processors.
+/// Settings of a worker on this host. `threads`: 0: one per processor.
 WorkerSettings worker_here(unsigned threads, std::uint64_t fingerprint);
 
-/// A worker in the coordinator's process, which is at the other end of the channel, until it is dismissed.
-/// `threads`: 0: as many as processors. Errors are logged, and the coordinator notices the silence.
+/// Runs a worker in the coordinator's process, which has the other end of the channel, until it is dismissed.
+/// `threads`: 0: one per processor. Errors are logged; the coordinator notices the silence.
 void run_local_worker(Channel& own, unsigned threads, std::uint64_t fingerprint, const Log& log);
 
 }  // namespace treefarm

@@ -50,10 +50,9 @@ class Prefetch {
     static constexpr std::size_t kUnitsPerThread = 3, kPathsPerThread = 8192;
 
     std::size_t threads_;
-    std::size_t credit_ = 0;  ///< units requested that have not arrived
-    std::optional<std::size_t>
-        requested_at_;           ///< units that were queued when more were asked for, and none have come since
-    bool nothing_left_ = false;  ///< the last answer brought no units
+    std::size_t credit_ = 0;                   ///< units requested that have not arrived
+    std::optional<std::size_t> requested_at_;  ///< units queued at the last request, if none have arrived since
+    bool nothing_left_ = false;                ///< the last answer brought no units
 };
 
 }  // namespace treefarm

@@ -25,7 +25,7 @@ unsigned affinity_threads();
 /// Processors of this host.
 unsigned host_processors();
 
-/// The processor's name in /proc/cpuinfo; "" where it has none.
+/// Model name of the processor from /proc/cpuinfo; "" if it gives none.
 std::string processor_name();
 
 }  // namespace treefarm

@@ -5,8 +5,8 @@
 
 namespace treefarm {
 
-/// Constants that were tuned on scenes rather than derived: docs/generated/policy.md lists them, and a render records
-/// them (resolved.toml). This header includes nothing of ours, so that every room may include it.
+/// Constants that were tuned on scenes instead of derived. docs/generated/policy.md lists them, and a render records
+/// them in resolved.toml. This header includes no other of the project, so that every module may include it.
 namespace policy {
 
 struct Constant {
@@ -33,9 +33,9 @@ inline constexpr const char* kMissed = "bench/log/bidirectional.md";
 inline constexpr const char* kRare = "bench/log/decisions.md#what-does-a-light-sample-cost";
 inline constexpr const char* kHeld = "bench/log/decisions.md#does-auto-hold-in-scenes-that-nobody-tuned-it-on";
 
-/// Table of all constants, by groups of what they decide.
+/// Table of all constants, grouped by the decision that they are for.
 inline constexpr Constant kConstants[] = {
-    // When paths are unguided ("auto"), by what guided samples tell of unguided ones.
+    // Whether paths are guided ("auto"), judged by what guided samples estimate for unguided ones.
     {"guiding.least_judged_spp", 4, "shorter passes have no say, spp", kAuto},
     {"guiding.ray_cost", 1.4,
      "cost of a guided ray over that of an unguided one, training included; 1.24 to 1.53 by scene", kAuto,
@@ -53,7 +53,7 @@ inline constexpr Constant kConstants[] = {
     {"guiding.least_settled_spp", 16, "trees of shorter passes still get much better, spp", kDecisions},
     {"guiding.settled_spp", 64, "from passes of so many spp on giving_up holds", kHeld},
     {"guiding.least_known", 4.0, "noise that rests on fewer groups of pixels, of 64, has no say", kDecisions},
-    // How often next event samples emitters ("auto").
+    // Share of vertices at which next event samples emitters ("auto").
     {"next_event.counted_every", 8,
      "direct light is summed along one of so many samples of a pixel; along all of them it would take 17 % of the time",
      kDecisions},
@@ -72,9 +72,9 @@ inline constexpr Constant kConstants[] = {
     {"next_event.sample_cost", 0.25, "cost of a light sample without its ray, in rays", kRare,
      "1.01, 0.99 (2026-11-28)"},
     {"next_event.shadow_ray_cost", 1.0, "cost of a shadow ray and its weights, in rays", kRare},
-    // The light about a pixel that its noise is judged by.
+    // Light level around a pixel, in relation to which noise is measured.
     {"levels.least", 0.1, "darker blocks count as bright as this share of the image's mean", kDecisions},
-    // Splitting: as how many paths one goes on, and when that is given up.
+    // Splitting: number of paths that one splits into, and when splitting is given up.
     {"splitting.usual", 8, "as how many paths one may go on (guiding.splitting = 0)", kSplits,
      "1.00, 0.99 (2026-11-26)"},
     {"splitting.least_share", 1.4,
@@ -103,7 +103,7 @@ inline constexpr Constant kConstants[] = {
      kMissed},
     {"light_subpaths.missed_errors", 1.0,
      "light that samples without them have missed is noise where it is more than so many standard errors", kRare},
-    // Russian roulette, candidates and glass that the camera sees.
+    // Russian roulette, candidates, and glass seen by the camera.
     {"walk.adjoint_window", 4.0,
      "a path plays roulette when it is expected to carry less than one part in so many of what its first vertex does",
      kRoulette, "0.99, 1.02 (2026-11-26)"},
@@ -119,7 +119,7 @@ inline constexpr Constant kConstants[] = {
      "bench/log/guiding.md#one-direction-a-vertex-or-several", "1.00, 1.00 (2026-11-26)"},
     {"walk.split_often", 4.0, "glass before the camera: the other way is followed with so many times its weight",
      "bench/log/splitting-and-roulette.md#glass-before-the-camera-toss-or-split"},
-    // The tree's learning and growth.
+    // Learning and growth of the tree.
     {"learning.spatial_threshold", 2000.0,
      "c of the spatial split rule for 512 x 512 pixels, in proportion to their fourth root", kTree,
      "0.97, 1.03 (2026-11-26)"},
@@ -156,7 +156,7 @@ inline constexpr Constant kConstants[] = {
      kProgram2019},
     {"schedule.kickstart_weight", 0.5,
      "weight of each record of a kick-start pass, in which light samples are records, too", kProgram2019},
-    // How renders end that have seconds or an error for a budget.
+    // End of renders with a budget of seconds or error.
     {"budget.time_tolerance", 0.05, "how far a render may be from budget.seconds, share of it", kError},
     {"budget.least_tolerance", 1.0, "but not less than so many seconds ...", kError},
     {"budget.most_tolerance", 0.1, "... as long as that is no more than this share", kError},
@@ -169,7 +169,7 @@ inline constexpr Constant kConstants[] = {
      "a pass that makes up for a missed target renders at least this share of what there is", kError},
     {"budget.error_margin", 1.02, "passes that end for an error have so many times the samples needed", kError},
     {"budget.strict_error_margin", 1.10, "the same of a strict render", kError},
-    // The progress that trees to come will bring.
+    // Progress expected from further trees.
     {"forecast.learned", 0.55, "after two trees that brought the variance below this share, a forecast is a bound",
      kError},
     {"forecast.noisy", 0.1,

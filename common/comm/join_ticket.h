@@ -24,7 +24,7 @@ struct JoinTicket {
     bool operator==(const JoinTicket&) const = default;
 };
 
-/// Random bytes of the system. Throws RunError where it has none.
+/// Random bytes of the operating system. Throws RunError if there are none.
 JoinKey draw_join_key();
 JoinRun draw_join_run();
 

@@ -19,7 +19,7 @@ namespace treefarm {
 inline constexpr std::int64_t kMaxInt = std::numeric_limits<int>::max();
 inline constexpr std::int64_t kMaxSpp = std::int64_t{1} << 30;
 
-/// Keys of a job by what their value is. `member` gives the place of the value in a job, const or not.
+/// Makers of job keys, by type of value. `member` returns a reference to the value in a job, const or not.
 
 /// Key of an integer in [low, high] or, if given, equal to `also`.
 template <class Member>

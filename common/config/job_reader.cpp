@@ -48,8 +48,8 @@ std::string toml_key(const std::string& key) {
     return !key.empty() && key.find_first_not_of(bare) == std::string::npos ? key : toml_string(key);
 }
 
-/// Reads a section that only resolved.toml has, whose names this module does not know (plan/resolved_file.h checks
-/// them).
+/// Reads a section that only resolved.toml has, whose names this module does not know (plan/resolve/resolved_file.h
+/// checks them).
 void read_record(const toml::table& section, const std::string& prefix, const std::string& file,
                  std::vector<Setting>& settings) {
     for (const auto& [key, node] : section) {

@@ -33,7 +33,7 @@ std::string read_settings_text(const std::filesystem::path& path, const std::str
 std::vector<Setting> read_job_settings(const std::filesystem::path& path);
 
 /// Settings of a TOML text; `name` stands for the file in messages. Paths stay as they are. Entries below [policy] and
-/// [experiment] become settings "policy..." and "experiment...", which are not job keys (plan/resolved_file.h).
+/// [experiment] become settings "policy..." and "experiment...", which are not job keys (plan/resolve/resolved_file.h).
 std::vector<Setting> parse_job_settings(const std::string& toml, const std::string& name);
 
 /// Setting from the argument "key=value" of --set. Quotes around the value are optional.

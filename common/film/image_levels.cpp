@@ -56,7 +56,7 @@ ImageLevels image_levels(std::span<const Rgb64> image, std::size_t width) {
         all += y;
     }
     const double least = tuned("levels.least") * all / static_cast<double>(image.size());
-    constexpr double kBlack = 1e-30;  // one over less is no float
+    constexpr double kBlack = 1e-30;  // the reciprocal of less is no float
     if (!(least > kBlack)) return levels;
     for (std::size_t b = 0; b < sums.size(); ++b)
         levels.inverse_levels.push_back(static_cast<float>(1.0 / std::max(sums[b] / counts[b], least)));

@@ -20,7 +20,7 @@ float outlier_noise(const Rgb& value, const Moments& pixel, std::uint32_t spp) {
     if (pixel.n < 2 || spp < 2) return 0.0f;
     const Rgb64 distance = Rgb64(value) - pixel.mean;
     const double own = luminance(distance * distance);
-    // Of few samples each is a large part, and no outlier.
+    // Of few samples each is a large part, not an outlier.
     const double least = std::max(kOutlier, 2.0 / pixel.n);
     if (!(own > 0) || own < least * luminance(pixel.m2)) return 0.0f;
     const double noise = own / (static_cast<double>(spp) * (spp - 1.0));

@@ -14,8 +14,8 @@ namespace treefarm {
 
 namespace {
 
-/// Linear values in [0, 1] to 8-bit sRGB without a power per value. `first` tells for each of so many equal steps the
-/// byte of its lower end; `begin` where each byte begins.
+/// Conversion from linear values in [0, 1] to 8-bit sRGB without a power per value. `first`: byte at the lower end of
+/// each of many equal steps; `begin`: least value of each byte.
 struct ByteTable {
     static constexpr std::size_t kSteps = 4096;
     std::array<std::uint8_t, kSteps + 1> first{};

@@ -5,7 +5,7 @@
 
 namespace treefarm {
 
-/// Places of a figure, as bits.
+/// Files that have a figure, as bits.
 inline constexpr unsigned kInTable = 1;    ///< a column of passes.csv
 inline constexpr unsigned kInSummary = 2;  ///< a key in the list `passes` of summary.json
 inline constexpr unsigned kInCell = 4;     ///< a key in the list `passes` of a study's cell.json
@@ -18,10 +18,10 @@ struct PassFigure {
     const char* unit;
     unsigned places;
     const char* meaning;
-    const char* former = "";  ///< names in files of earlier versions, separated by blanks
+    const char* former = "";  ///< names in files of earlier versions, separated by spaces
 };
 
-/// Figures of a pass, in the order of the columns. An empty field or null: not known.
+/// Figures of a pass, in the order of the columns. An empty field or null: unknown.
 inline constexpr PassFigure kPassFigures[] = {
     {"pass", "number", kAll, "number of the pass, from 0"},
     {"spp", "samples/pixel", kAll, "samples of this pass"},
@@ -118,7 +118,7 @@ inline constexpr PassFigure kPassFigures[] = {
     {"worker_seconds", "thread-s", kInCell, "tracing and recording, by worker"},
 };
 
-/// A figure's name for one that this or an earlier version wrote; the name itself where no figure was called so.
+/// Present name of a figure from the name written by this or an earlier version; other names are returned unchanged.
 std::string_view current_name(std::string_view written);
 
 }  // namespace treefarm

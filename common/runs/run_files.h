@@ -29,7 +29,7 @@ inline constexpr const char* kLaunchFolder = "launch";
 inline constexpr const char* kInspectFolder = "inspect";
 inline constexpr const char* kLockFileName = "lock";
 
-/// Files that a render writes in its run directory. The first two make a folder a run directory.
+/// Files that a render writes to its run directory. The first two mark a folder as a run directory.
 inline constexpr std::array<RunFile, 13> kRunFiles = {{
     {kStatusFile, "progress, once a second, and which process on which host writes it"},
     {kSummaryFile, "how the run ended, where and when it ran, hashes, and the main figures of each pass"},
@@ -46,7 +46,7 @@ inline constexpr std::array<RunFile, 13> kRunFiles = {{
     {kTicketFileName, "address and secret with which workers join; there while the run takes workers in"},
 }};
 
-/// Folders and files that other parts of the program keep in a run directory.
+/// Folders and files of other parts of the program in a run directory.
 inline constexpr std::array<RunFile, 4> kRunFolders = {{
     {kCheckpointFolder, "the state from which treefarm resume goes on"},
     {kLaunchFolder, "the log of treefarm launch, and the coordinator's sign of life"},

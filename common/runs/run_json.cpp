@@ -9,7 +9,7 @@ namespace treefarm {
 
 namespace {
 
-/// A parser that calls itself would need much stack for deeper texts.
+/// Greatest depth of JSON: the recursive parser would need much stack for more.
 constexpr int kMostDepth = 32;
 
 RunJson member(const RunJson& object, RunKey key, bool (RunJson::*is_kind)() const noexcept) {
@@ -18,7 +18,7 @@ RunJson member(const RunJson& object, RunKey key, bool (RunJson::*is_kind)() con
     return found != object.end() && ((*found).*is_kind)() ? *found : RunJson();
 }
 
-/// Whether a word is one of those that a text lists, separated by blanks.
+/// Whether a word is in a list separated by spaces.
 bool lists(std::string_view words, std::string_view word) {
     for (std::size_t at = words.find(word); at != words.npos; at = words.find(word, at + 1)) {
         const std::size_t end = at + word.size();
@@ -27,7 +27,7 @@ bool lists(std::string_view words, std::string_view word) {
     return false;
 }
 
-/// Files of earlier studies have a forecast as two keys, as passes.csv has it.
+/// Combines the two keys of a forecast in files of earlier studies, as in passes.csv.
 void gather_forecast(RunJson& pass, const std::string& name) {
     for (const char* part : {"seconds", "trust"})
         if (const auto flat = pass.find(name + "_" + part); flat != pass.end()) {
@@ -37,7 +37,7 @@ void gather_forecast(RunJson& pass, const std::string& name) {
         }
 }
 
-/// A file with the current names of its passes' figures.
+/// File with the present names of its passes' figures.
 RunJson with_current_names(RunJson file) {
     RunJson none = RunJson::array();
     const auto passes = file.find("passes");

@@ -12,26 +12,26 @@ namespace treefarm {
 
 using RunJson = nlohmann::ordered_json;
 
-/// The object that a file of a run holds, with former names of figures replaced by the current ones. An object without
-/// keys where the text is no object or nests deeper than any that a render writes.
+/// JSON object of a run's file, with former names of figures replaced by the present ones. Empty if the text is no
+/// object, or nests deeper than renders write.
 RunJson parse_run_json(const std::string& text);
-/// That of a file; an object without keys where there is none.
+/// As parse_run_json(), from a file; empty if it is missing.
 RunJson read_run_json(const std::filesystem::path& file);
 
-/// That of a file which has to be whole. Throws RunJson::exception.
+/// As parse_run_json(), from a file that must be valid. Throws RunJson::exception.
 RunJson read_whole_run_json(const std::filesystem::path& file);
 
-/// A member of an object, of the kind that is expected; else null, or a list without elements.
+/// Member of an object if it has the expected type; else null, or an empty list.
 RunJson number_of(const RunJson& object, RunKey key);
 RunJson text_of(const RunJson& object, RunKey key);
 RunJson object_of(const RunJson& object, RunKey key);
 RunJson array_of(const RunJson& object, RunKey key);
 
-/// A text or a number of an object; else "" or the number given.
+/// Text or number in an object; else "" or the given number.
 std::string text_in(const RunJson& object, RunKey key);
 double number_in(const RunJson& object, RunKey key, double otherwise = 0);
 
-/// Whether a render was to reach an error and has ended above it.
+/// Whether a render had a target error and ended above it.
 bool missed_target(const RunJson& summary);
 
 }  // namespace treefarm

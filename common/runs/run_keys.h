@@ -7,15 +7,15 @@
 
 namespace treefarm {
 
-/// Places of a key, as bits beside those of a figure.
+/// Files that have a key, as bits beside those of figures.
 inline constexpr unsigned kInStatus = 8;  ///< status.json
 inline constexpr unsigned kInLife = 16;   ///< launch/status.json
-inline constexpr unsigned kInStudy = 32;  ///< study.json, as far as it is read here
+inline constexpr unsigned kInStudy = 32;  ///< study.json, for the keys that are read
 inline constexpr unsigned kInBoth = kInSummary | kInStatus;
 
 /// A key of a JSON file of a run directory.
 struct RunKeyRow {
-    const char* path;  ///< keys from the outermost on, separated by dots; of a list those of its elements
+    const char* path;  ///< keys from the outermost on, separated by dots; of a list, those of its elements
     const char* unit;
     unsigned places;
     const char* meaning;
@@ -75,6 +75,10 @@ inline constexpr RunKeyRow kRunKeys[] = {
     {"halving.seconds", "s", kInBoth, "time until then; null: not known"},
     {"halving.trust", "word", kInBoth, "firm, noisy, learning (an upper bound), or empty"},
     {"target", "object", kInBoth, "status.json: forecast until budget.error, as halving; summary.json: the outcome"},
+    {"target.relative_error", "ratio", kInBoth, "budget.error"},
+    {"target.spp", "samples/pixel", kInStatus, "samples until then"},
+    {"target.seconds", "s", kInStatus, "time until then"},
+    {"target.trust", "word", kInStatus, "as halving.trust"},
     {"target.reached", "boolean", kInSummary, "the error is at most budget.error"},
     {"pass_weights", "list", kInSummary, "weight of each pass in the image"},
     {"tail_share", "fraction", kInSummary, "smallest share of the pixels with 40 % of the noise"},
@@ -113,7 +117,7 @@ inline constexpr RunKeyRow kRunKeys[] = {
     {"passes.measured", "object", kInCell, "true errors of the pass against the reference"},
 };
 
-/// A key of a run's files, or a figure of a pass; a name that no table has does not compile.
+/// A key of a run's files, or a figure of a pass; other names do not compile.
 class RunKey {
   public:
     consteval RunKey(const char* name) : name_(name) {

@@ -17,7 +17,7 @@
 
 namespace treefarm {
 
-/// A checkpoint as it was read.
+/// A checkpoint read from disk.
 struct LoadedCheckpoint {
     std::uint64_t generation = 0;
     std::uint64_t newest = 0;  ///< highest generation in either file, usable or not

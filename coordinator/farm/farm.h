@@ -57,7 +57,7 @@ class Farm {
     void allow_negative(bool allowed) { negative_allowed_ = allowed; }
 
     /// Announces a pass and sends its tree along the chain of present workers; before the first pass, the scene.
-    /// `begun`: partial results from before a resume, or nullptr.
+    /// `partial`: results from before a resume, or nullptr.
     void begin_pass(const PassPlan& plan, const AnyModel& tree, Bytes encoded_tree, int width, int height,
                     const PartialPass* partial = nullptr);
     /// Copies the pass's results so far, with its poison units.

@@ -45,8 +45,8 @@ class Ledger {
     /// Worker losses over one unit after which the render fails.
     static constexpr std::size_t kMostDeaths = 3;
 
-    /// All units of a pass, in tiles of `tile_size` pixels, except those in `done`. `deadly`: poison units from before
-    /// a resume, which are not in `done` and are issued uncut.
+    /// All units of a pass, in tiles of `tile_size` pixels, except those in `done`. `poison_units`: those from
+    /// before a resume, which are not in `done` and are issued uncut.
     Ledger(const PassPlan& plan, int width, int height, int tile_size, const DoneWork& done = {},
            std::span<const PoisonUnit> poison_units = {});
 

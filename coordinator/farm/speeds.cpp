@@ -8,12 +8,12 @@ namespace treefarm {
 
 namespace {
 
-constexpr double kLeastSpeed = 1.0;  ///< of one that stands still: it may move again
+constexpr double kLeastSpeed = 1.0;  ///< of a worker without progress: it may resume
 constexpr double kHalfLife = 2.0;    ///< of a measured speed, seconds
-// What a worker is handed at once: little enough that the last units of a pass spread over all workers.
-constexpr double kMostSeconds = 2.0;  ///< of its work
-constexpr double kPart = 0.25;        ///< of its part of what is left
-// A unit is given to a second worker that saves so many seconds, and so many times what it takes there.
+// Limits of a worker's portion: small, so that the last units of a pass spread over all workers.
+constexpr double kMostSeconds = 2.0;  ///< seconds of the worker's time
+constexpr double kPart = 0.25;        ///< fraction of its part of the rest
+// Least saving of a copy for a second worker: in seconds, and as a multiple of its time for the copy.
 constexpr double kCopyGain = 0.1, kCopyRatio = 1.0;
 
 }  // namespace
@@ -70,7 +70,7 @@ double Speeds::gain(int here, std::uint64_t paths, int holder, std::uint64_t out
     // A worker that finished all before its speed was known is fast.
     const double takes = per_thread_ > 0 || known(here) ? static_cast<double>(paths) / speed(here) : 0.0;
     const double saved = static_cast<double>(outstanding) / speed(holder) - takes;
-    // Both may end together, and then the slower one's whole result is dropped.
+    // If both end at the same time, the slower one's whole result is dropped.
     return saved > std::max(kCopyGain, kCopyRatio * takes) ? saved : 0;
 }
 

@@ -21,7 +21,7 @@ class LaunchFolder {
 
     const std::filesystem::path& run() const { return run_; }
     std::filesystem::path own() const { return run_ / kLaunchFolder; }
-    /// Where the coordinator's sign of life goes: a whole path, for other hosts.
+    /// Heartbeat file of the coordinator: an absolute path, for other hosts.
     std::filesystem::path life_file() const { return std::filesystem::absolute(own() / kStatusFile); }
 
     /// Content of the heartbeat file; sets `readable` to whether it could be looked for.

@@ -23,7 +23,7 @@ GuidingVerdict GuidingMemory::after_guided(const PassPlan& pass, const GuidingEv
 
 GuidingEfficiency GuidingMemory::efficiency_with(const PassPlan& pass, const GuidingEvidence& evidence,
                                                  const GuidingEfficiency& own) {
-    // The light that the noise of short passes is relative to is that of an image of few samples.
+    // In short passes, noise is relative to the light level of an image of few samples.
     if (pass.spp >= tuned<std::uint32_t>("guiding.least_settled_spp") &&
         told_.samples < tuned<std::uint32_t>("guiding.least_settled_spp"))
         told_ = {};

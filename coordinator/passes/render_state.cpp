@@ -82,7 +82,7 @@ void judge_next_event(RenderState& state, const Resolved& job, const CombinedIma
     const PassPlan& plan = report.plan;
     const auto asked = static_cast<double>(report.stats.next_event[kNextEventAsked]),
                drawn = static_cast<double>(report.stats.next_event[kNextEventDrawn]);
-    // Along which direct light was counted.
+    // Samples along which direct light was counted.
     const std::uint64_t samples =
         multiples_in(plan.first_sample, plan.spp, tuned<std::uint32_t>("next_event.counted_every"));
     const double paths =

@@ -37,7 +37,7 @@ bool holds_result_of(const fs::path& folder, const RenderRequest& request) {
 
 bool restore_output(const fs::path& folder, const std::string& file) {
     if (file.empty() || fs::exists(file)) return true;
-    // Of the picture to look at the run directory has a copy, too.
+    // The run directory has a copy of a PNG output, too: the preview.
     const fs::path from = folder / (fs::path(file).extension() == ".png" ? kPreviewFile : kImageFile);
     const std::string bytes = read_text(from);
     if (bytes.empty()) return false;

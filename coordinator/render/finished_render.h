@@ -10,16 +10,16 @@
 
 namespace treefarm {
 
-/// Figures of a render that has ended.
+/// Figures of a finished render.
 struct RenderFigures {
     std::uint32_t spp = 0;
     double seconds = 0;
-    std::optional<double> error;  ///< relative; unknown of a render of one sample, say
+    std::optional<double> error;  ///< relative; unknown with one sample per pixel
     bool missed_target = false;   ///< its error is above budget.error
-    std::filesystem::path image;  ///< where it is
+    std::filesystem::path image;  ///< path of the image
 };
 
-/// Figures that a run directory's summary has, as far as it has any.
+/// Figures from a run directory's summary; missing ones are unknown.
 RenderFigures read_figures(const std::filesystem::path& folder);
 
 /// Whether a run directory holds the finished render of this request, by the same program: equal job, scene and

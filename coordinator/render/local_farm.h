@@ -10,11 +10,12 @@
 
 namespace treefarm {
 
-/// Runs a worker at its end of a channel until it is dismissed; throws nothing. Coordinator and worker never include
-/// each other, so who has both gives the one to the other (worker/local_worker.h).
+/// Function that runs a worker at its end of a channel until it is dismissed; throws nothing. Coordinator and worker
+/// never include each other, so that the caller, who has both, passes the worker to the coordinator
+/// (worker/local_worker.h).
 using LocalWorker = std::function<void(Channel& own)>;
 
-/// A farm of one worker, in a thread of this process, which is dismissed at the end.
+/// Farm of one worker in a thread of this process, dismissed by the destructor.
 class LocalFarm {
   public:
     explicit LocalFarm(LocalWorker work);
@@ -22,7 +23,7 @@ class LocalFarm {
     LocalFarm(const LocalFarm&) = delete;
     LocalFarm& operator=(const LocalFarm&) = delete;
 
-    /// The coordinator's end.
+    /// Coordinator's end of the channel.
     Channel& channel() { return channel_; }
 
   private:

@@ -11,7 +11,7 @@ namespace treefarm {
 
 namespace {
 
-/// Whether the checkpoint is one of these passes: their kernels may not be known yet.
+/// Whether a checkpoint's passes begin these ones; kernels are ignored, since later ones may be unknown.
 bool begins(const std::vector<PassPlan>& plans, const RenderState& state) {
     const auto alike = [](const PassReport& done, PassPlan plan) {
         plan.kernel = done.plan.kernel;
@@ -21,11 +21,11 @@ bool begins(const std::vector<PassPlan>& plans, const RenderState& state) {
            std::equal(state.reports.begin(), state.reports.end(), plans.begin(), alike);
 }
 
-/// The state after the pass before, as far as a checkpoint knows it; otherwise that before any pass.
+/// State before the sample's pass, as far as a checkpoint has it; otherwise the state before any pass.
 RenderState nearest_state(const RenderRequest& request, const std::vector<PassPlan>& plans, std::uint32_t pass) {
     if (request.start.checkpoint && begins(plans, request.start.checkpoint->state)) {
         RenderState& state = request.start.checkpoint->state;
-        // Unless the pass taught it anything: of next event an unguided one does.
+        // Unless the pass taught it something: an unguided pass may decide on next event.
         const PassPlan* const last = state.reports.empty() ? nullptr : &state.reports.back().plan;
         const bool has_its_tree = last && state.reports.size() == pass + 1 && !last->record &&
                                   (last->guided || !request.content.plan.job.decides_next_event);
@@ -34,8 +34,8 @@ RenderState nearest_state(const RenderRequest& request, const std::vector<PassPl
     return starting_state(request);
 }
 
-/// The model of a pass, which may decide on next event alone, learned by rendering the passes before it, but for those
-/// that a checkpoint knows.
+/// Model of a pass, learned by rendering the passes before it that the checkpoint lacks; it may only decide on next
+/// event.
 AnyModel learn_model(const RenderRequest& request, const std::vector<PassPlan>& plans, std::uint32_t pass,
                      const TellMessage& tell) {
     RenderState state = nearest_state(request, plans, pass);

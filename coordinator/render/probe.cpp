@@ -11,12 +11,12 @@ namespace treefarm {
 
 namespace {
 
-/// Fewer samples tell neither an interval of the error nor what a tree brings; but they are not waited for longer than
-/// so many seconds.
+/// Least samples of a probe, for an interval of the error and the effect of a tree; kPatienceSeconds limits the time
+/// for them.
 constexpr std::uint32_t kLeastSpp = 31;
 constexpr double kPatienceSeconds = 30;
 
-/// Whether the probe should end here rather than with another pass.
+/// Whether the probe should end before another pass.
 bool is_enough(const RenderHistory& state, const PassPlan& next, double limit) {
     if (state.passes.empty()) return false;
     const PassFacts& last = state.passes.back();

@@ -6,19 +6,19 @@
 
 namespace treefarm {
 
-/// How long a probe usually takes, seconds of rendering.
+/// Default length of a probe, in seconds of rendering.
 inline constexpr double kProbeSeconds = 5;
 
-/// The first passes of a render.
+/// First passes of a render.
 struct Probe {
-    RenderHistory state;    ///< after them
-    bool complete = false;  ///< they are all that the job asks for
+    RenderHistory state;    ///< state after them
+    bool complete = false;  ///< they are all passes of the job
     bool interrupted = false;
-    unsigned threads = 0;  ///< of the worker, if whoever has it says so
+    unsigned threads = 0;  ///< of the worker; to be set by its owner
 };
 
-/// Renders the first passes by a worker in this process, as many as fit into so many seconds (a few more where they
-/// would tell nothing), writes nothing and keeps no image. Throws RunError.
+/// Renders the first passes by a worker in this process, as many as `seconds` allow (a few more if these are not
+/// informative), without writing files or keeping an image. Throws RunError.
 Probe run_probe(const RenderRequest& request, double seconds, const TellMessage& tell = {});
 
 }  // namespace treefarm

@@ -20,7 +20,7 @@ namespace treefarm {
 
 namespace {
 
-/// A budget replaces whatever budget the job has; spp leaves no room for another.
+/// Settings of a budget, which replaces the job's; with spp no other budget is allowed.
 std::vector<Setting> budget_layer(const RenderBudget& budget) {
     const auto setting = [](const char* option, const char* key, std::string value) {
         return Setting{key, std::move(value), Location{option, 0, 0}};
@@ -39,7 +39,7 @@ std::vector<Setting> budget_layer(const RenderBudget& budget) {
     return layer;
 }
 
-/// A budget that a setting gives and another one makes void would be ignored in silence.
+/// Refuses budget keys of the settings that another budget overrides, which would be ignored without a message.
 void check_budget_keys(const RenderInput& input, RenderContent& content) {
     const Job::Budget& budget = content.job.budget;
     const char* const open = budget.seconds > 0 ? "budget.seconds" : budget.error > 0 ? "budget.error" : nullptr;
@@ -55,15 +55,14 @@ void check_budget_keys(const RenderInput& input, RenderContent& content) {
     }
 }
 
-/// The passes of a schedule file instead of the job's budget.
+/// Sets the passes of a schedule file in place of the job's budget.
 void replay(const std::string& file, RenderContent& content) {
     content.schedule = parse_schedule(read_settings_text(file, "schedule"), file, resolve(content.job, content.scene));
     content.job.budget.seconds = content.job.budget.error = 0;
     content.job.budget.spp = content.schedule.back().first_sample + content.schedule.back().spp;
 }
 
-/// Where the passes of a job file stand that has them listed, unless the input says how long to render. `above`: all
-/// its settings.
+/// Schedule file of a job file with listed passes, unless the input has a budget. `above`: all of its settings.
 std::string schedule_of(const RenderInput& input, const JobFile& file, const std::vector<Setting>& above) {
     const bool has_budget = std::any_of(above.begin(), above.end(), [](const Setting& s) {
         return s.key.starts_with("budget.") && s.key != "budget.strict";
@@ -85,7 +84,7 @@ std::string schedule_of(const RenderInput& input, const JobFile& file, const std
     return schedule.string();
 }
 
-/// What of the settings changes the scene: "-D width", or "".
+/// Setting that changes the scene: "-D width", or "".
 std::string scene_change(const std::vector<Setting>& settings) {
     constexpr std::string_view kDefine = "scene.defines.";
     for (const Setting& s : settings) {
@@ -126,7 +125,7 @@ RenderRequest read_request(const RenderInput& input, const RenderOrigin& origin)
     const std::vector<Setting> budget = budget_layer(input.budget);
     layer.insert(layer.end(), budget.begin(), budget.end());
 
-    Job where;  // which scene, and how to read it, stands in the upper layers
+    Job where;  // the upper layers name the scene, and how to read it
     apply_layer(where, file_layer);
     apply_layer(where, layer);
     if (where.scene.file.empty())
@@ -139,7 +138,7 @@ RenderRequest read_request(const RenderInput& input, const RenderOrigin& origin)
     content.job = merged_job(loaded, {file_layer, layer});
     check_job(content.job);
     check_budget_keys(input, content);
-    // --set scene.file=... is relative to the current folder, a name in job.toml to that of job.toml.
+    // --set scene.file=... is relative to the current folder, a name in job.toml to that file's folder.
     content.job.scene.file = std::filesystem::absolute(content.job.scene.file).lexically_normal().string();
     content.scene = std::move(loaded.scene);
     if (const std::string schedule = schedule_of(input, file, layer); !schedule.empty()) replay(schedule, content);
@@ -156,7 +155,7 @@ RenderRequest read_request(const RenderInput& input, const RenderOrigin& origin)
         content.warnings.push_back(
             std::to_string(content.job.budget.spp) + " spp become " + std::to_string(spp) +
             ": passes take multiples of guiding.spp_unit = " + std::to_string(content.job.guiding.spp_unit));
-    content.plan.warnings = content.warnings;  // what the reader had to replace belongs to the plan, too
+    content.plan.warnings = content.warnings;  // replacements by the reader belong to the plan, too
     return request;
 }
 

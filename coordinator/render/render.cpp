@@ -16,9 +16,9 @@ namespace treefarm {
 
 namespace {
 
-/// Later jobs of a study take the place of the first in the memory of all processes.
+/// Whether memory is checked: not for later jobs of a study, which reuse the memory of the first.
 bool checks_memory(const RenderRequest& request) {
-    // What goes on was checked when it began, and its films are in memory already.
+    // A resumed render was checked when it began, and its films are in memory already.
     return request.content.job.farm.memory_check && request.workers.turn.number <= 1 && !request.start.checkpoint;
 }
 
@@ -75,7 +75,7 @@ class RenderRun {
     }
 
   private:
-    /// Keeps what the finished passes gave, where that can still be written.
+    /// Saves the results of the finished passes, if that is still possible.
     void finish(RunEnd& end) {
         end.elapsed_seconds = clock_.seconds();
         tell_news();
@@ -84,10 +84,10 @@ class RenderRun {
             log_->error("{}", failure);
     }
 
-    /// Leaves what the render went on with as it was.
+    /// Leaves the files of the resumed run as they were.
     void leave(const RunEnd& end) { directory_.leave(end.state, spp_before_, end.elapsed_seconds); }
 
-    /// Logs the news of files that could not be written, and of a viewer that shows nothing.
+    /// Logs errors of files that could not be written, and of the viewer.
     void tell_news() {
         for (const std::string& news : display_.take_news())
             log_->warn("{}", news);
@@ -152,7 +152,7 @@ class RenderRun {
         if (observer_.phase) observer_.phase(phase);
     }
 
-    /// Finished part of the last pass, 0 to 1.
+    /// Finished fraction of the last pass.
     double part_of_pass() const {
         if (!farm_.has_pass()) return 0;
         return static_cast<double>(farm_.ledger().done()) / static_cast<double>(farm_.ledger().total());
@@ -172,7 +172,7 @@ class RenderRun {
         return outcome;
     }
 
-    /// What the render begins with, or goes on from.
+    /// Initial or resumed state of the render.
     RenderState take_state() const {
         if (request_.start.checkpoint) return std::move(request_.start.checkpoint->state);
         return starting_state(request_);
@@ -193,8 +193,8 @@ class RenderRun {
     Farm farm_;
     std::optional<JoinListener> door_;
     std::size_t pass_count_ = 0;      ///< 0: not known
-    const std::uint32_t spp_before_;  ///< of what the render goes on with
-    bool went_on_ = false;            ///< with that
+    const std::uint32_t spp_before_;  ///< of the resumed run
+    bool went_on_ = false;            ///< it has resumed that run
     RenderResult result_;
 };
 
@@ -213,7 +213,7 @@ PassChooser passes_of(const RenderRequest& request) {
 }
 
 RenderOutcome render(const RenderRequest& request, const RenderObserver& observer) {
-    // Before any file is touched: what this process alone takes. With the workers', once they have said what they have.
+    // Before any file is touched: memory of this process alone. That of the workers follows once they have reported.
     if (checks_memory(request))
         check_memory(request.content.plan.memory, this_host(), Roster(0), request.content.job.scene.file);
     if (!request.workers.channel && !request.workers.local) throw RunError("the render has no workers");

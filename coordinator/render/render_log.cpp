@@ -20,7 +20,7 @@ namespace treefarm {
 
 namespace {
 
-/// A render that has found no light in so many passes says so before it ends.
+/// Number of black passes after which a render reports that it has found no light.
 constexpr std::uint32_t kPassesInTheDark = 3;
 
 std::string size_text(const Film& film) {
@@ -33,7 +33,7 @@ std::string size_text(const Film& film) {
 }  // namespace
 
 RenderLog::RenderLog(const RenderRequest& request, std::filesystem::path folder, const TellMessage& tell)
-    : request_(request), folder_(std::move(folder)), log_(make_log("treefarm", folder_ / "log.txt", tell)) {}
+    : request_(request), folder_(std::move(folder)), log_(make_log("treefarm", folder_ / kLogFile, tell)) {}
 
 void RenderLog::tell_origin() const {
     log_->debug("{}", request_.origin.command);
@@ -52,7 +52,7 @@ void RenderLog::tell_start(const RenderState& state, const NextPass& first) cons
                size_text(request_.content.scene.film), budget_text(first), folder_.string());
     if (continues)
         log_->info("{} passes with {} spp are done{}, {} of rendering", state.reports.size(), state.spp(),
-                   state.partial ? ", one is begun" : "",
+                   state.partial ? ", one is partly done" : "",
                    duration_text(state.partial ? state.partial->run_seconds : state.history.seconds));
     if (continues && request_.content.plan.job.farm.checkpoint_seconds == 0)
         log_->warn("no checkpoints (farm.checkpoint_seconds = 0): that of {} spp stays until the render is done",
@@ -77,19 +77,19 @@ void RenderLog::tell_pass(const PassReport& pass, const CombinedImage& image, st
         log_->warn("{}: {} records capped, {} cells saturated, {} positions outside the tree", name,
                    pass.caps.capped_records, pass.caps.saturated_cells, pass.caps.outside_positions);
     if (pass.splat_caps != SplatCaps{} || pass.saturated_splats > 0)
-        log_->warn("{}: {} capped splats, {} saturated sums of splats, {} splats that are no radiance", name,
-                   pass.splat_caps.capped, pass.saturated_splats, pass.splat_caps.rejected);
+        log_->warn("{}: {} capped splats, {} saturated sums of splats, {} invalid splats", name, pass.splat_caps.capped,
+                   pass.saturated_splats, pass.splat_caps.rejected);
     if (pass.plan.index >= kPassesInTheDark) tell_if_black(image, pass.spp_done);
 }
 
-/// Says, once, what in the scene makes an image black.
+/// Logs, once, the probable cause of a black image.
 void RenderLog::tell_if_black(const CombinedImage& image, std::uint32_t spp) {
     const auto is_dark = [](const Rgb64& mean) { return mean == Rgb64(0.0); };
     if (reported_black_ || !std::all_of(image.mean.begin(), image.mean.end(), is_dark)) return;
     reported_black_ = true;
     const std::vector<Finding> causes = dark_causes(request_.content.scene);
     log_->warn("the image is black after {} spp{}", spp,
-               causes.empty() ? "; what in the scene makes it so is not plain to see: no path has met a light" : "");
+               causes.empty() ? "; the cause in the scene is not obvious: no path has hit a light" : "");
     for (const Finding& cause : causes)
         log_->warn("{}", cause.text());
 }
@@ -97,14 +97,14 @@ void RenderLog::tell_if_black(const CombinedImage& image, std::uint32_t spp) {
 void RenderLog::tell_end(const RunEnd& end, const RenderResult& result, bool continued, double part,
                          bool has_previous) {
     if (has_previous)
-        log_->warn("an earlier run's files lie aside in {}, until a run in this folder is done",
+        log_->warn("an earlier run's files are set aside in {}, until a run in this folder is done",
                    (folder_ / "previous*").string());
     if (end.state == RunState::failed) {
         if (const std::string kept = kept_text(result, part); !kept.empty()) log_->info("{}", kept);
         return;
     }
     if (!continued) {
-        log_->warn("interrupted before it went on: nothing has changed");
+        log_->warn("interrupted before it was resumed: nothing has changed");
         return;
     }
     if (result.passes.empty()) {
@@ -144,15 +144,15 @@ std::string RenderLog::budget_text(const NextPass& first) const {
     return text;
 }
 
-/// What is kept of a render that is not done, and how it goes on.
+/// Description of the saved results of an unfinished render, with the command that resumes it.
 std::string RenderLog::kept_text(const RenderResult& result, double part) const {
     const bool goes_on = request_.storage.checkpoints && request_.content.job.farm.checkpoint_seconds > 0;
     const double share = goes_on && part < 1 ? part : 0;  // 1: of a finished pass
     std::string text;
     if (result.spp > 0) text = fmt::format("kept the {} spp of finished passes", result.spp);
     if (share > 0)
-        text +=
-            fmt::format("{}{:.0f} % of the pass in hand", text.empty() ? "kept " : ", and ", std::floor(100 * share));
+        text += fmt::format("{}{:.0f} % of the unfinished pass", text.empty() ? "kept " : ", and ",
+                            std::floor(100 * share));
     if (goes_on && !text.empty()) text += "; go on with: treefarm resume " + shell_quoted(folder_.string());
     return text;
 }

@@ -10,24 +10,24 @@
 
 namespace treefarm {
 
-/// Log of a render: lines for its observer and for log.txt in the run directory.
+/// Log of a render, line by line: to its observer and to the run directory's log.txt.
 class RenderLog {
   public:
-    /// `request` outlives it.
+    /// `request` must outlive it.
     RenderLog(const RenderRequest& request, std::filesystem::path folder, const TellMessage& tell);
 
     const Log& log() const { return log_; }
-    /// Logs the command and the readers' warnings.
+    /// Logs the command, and messages of the readers.
     void tell_origin() const;
-    /// Logs scene, size and budget, and the samples of a checkpoint.
+    /// Logs the start of the render, or the state that it resumes.
     void tell_start(const RenderState& state, const NextPass& first) const;
-    /// `pass_count`: of all; 0: not known.
+    /// Logs a pass. `pass_count`: of all passes; 0: unknown.
     void tell_pass(const PassReport& pass, const CombinedImage& image, std::size_t pass_count);
-    /// `continued`: false: interrupted before anything of its checkpoint was continued. `part`: of the pass that was
-    /// not finished, 0 to 1. `has_previous`: an earlier run lies aside in the folder.
+    /// Logs the end. `continued`: false: interrupted before it resumed its checkpoint. `part`: finished fraction of the
+    /// last pass, 0 to 1. `has_previous`: an earlier run is set aside in the folder.
     void tell_end(const RunEnd& end, const RenderResult& result, bool continued, double part, bool has_previous);
 
-    /// The options that make the passes known to --debug-sample, and the checkpoint.
+    /// Options that tell --debug-sample the passes, and the checkpoint.
     std::string replay_options() const;
 
   private:
@@ -43,7 +43,7 @@ class RenderLog {
     bool reported_black_ = false;
 };
 
-/// Whether a result's error is above the one that was asked for.
+/// Whether a result's error is above the request's target.
 bool missed_target(const RenderRequest& request, const RenderResult& result);
 
 }  // namespace treefarm

@@ -19,43 +19,43 @@
 
 namespace treefarm {
 
-/// Content of a render, read and checked.
+/// Content of a render, with all input read and checked.
 struct RenderContent {
     Job job;
     Scene scene;                        ///< without the effects that the job forces off
-    EffectPlan plan;                    ///< of both
-    std::vector<PassPlan> schedule;     ///< listed passes; empty: by the job's budget
+    EffectPlan plan;                    ///< of scene and job
+    std::vector<PassPlan> schedule;     ///< passes to render; empty: those of the job's budget
     std::vector<std::string> warnings;  ///< of the readers, for the log
-    std::vector<std::string> notes;     ///< of the readers, of what is no fault
+    std::vector<std::string> notes;     ///< of the readers, other than faults
 };
 
-/// Start of a render. Empty: the guide's first model, and no samples.
+/// Start of a render. Without either member: the guide's initial model, and no samples.
 struct RenderStart {
-    std::optional<AnyModel> model;                 ///< that guides the first pass
-    std::shared_ptr<LoadedCheckpoint> checkpoint;  ///< checkpoint to continue; its state is moved out
+    std::optional<AnyModel> model;                 ///< guides the first pass
+    std::shared_ptr<LoadedCheckpoint> checkpoint;  ///< checkpoint being resumed; its state is moved out
 };
 
-/// Files and displays of a render, besides those of job.output, which names the run directory.
+/// Storage settings of a render, besides job.output (which names the run directory).
 struct RenderStorage {
     bool overwrite = false;        ///< an earlier run in the folder may be replaced
-    bool checkpoints = true;       ///< the render can be resumed; false: it is one of many that are short
-    std::string display_server{};  ///< HOST:PORT of a viewer that speaks tev's protocol; "": none
+    bool checkpoints = true;       ///< whether checkpoints are written; false in a series of short renders
+    std::string display_server{};  ///< HOST:PORT of a viewer with tev's protocol; "": none
 };
 
-/// Origin of a render, for its files: the command and the program.
+/// Origin of a render, for its files: command and program.
 struct RenderOrigin {
     std::string command{};        ///< as it was typed
     std::string debug_command{};  ///< reproduces a sample with " pass,x,y,sample" and --schedule appended
     Fingerprint fingerprint{};    ///< of this process
-    std::string attempt{};        ///< of treefarm launch; "" without
+    std::string attempt{};        ///< attempt of treefarm launch; "" without launch
 };
 
-/// Workers of a render, and its stop flag.
+/// Workers of a render, and its interruption.
 struct RenderWorkers {
-    Channel* channel = nullptr;  ///< to workers of the caller, who dismisses them
-    LocalWorker local{};         ///< without a channel: a worker in this process, dismissed at the end
+    Channel* channel = nullptr;  ///< channel to running workers, which the caller dismisses
+    LocalWorker local{};         ///< without a channel: worker in this process, dismissed at the end
     JobTurn turn{};              ///< among the jobs of a study
-    /// Asked often; true interrupts the render, which can be resumed then.
+    /// Polled often; true interrupts the render, which can be resumed later.
     std::function<bool()> stop = [] { return false; };
 };
 
@@ -68,10 +68,10 @@ struct RenderRequest {
     RenderWorkers workers{};
 };
 
-/// State at the start of a render without a checkpoint.
+/// Initial state of a request without a checkpoint.
 RenderState starting_state(const RenderRequest& request);
 
-/// Passes of a request, one after the other.
+/// Pass planner of a request.
 PassChooser passes_of(const RenderRequest& request);
 
 }  // namespace treefarm

@@ -9,7 +9,7 @@ namespace treefarm {
 RenderObserver shown_by(Progress& progress, const RenderObserver& observer) {
     RenderObserver both = observer;
     both.phase = [&](LifePhase phase) {
-        if (phase == LifePhase::write) progress.clear();  // lines that come now are the last
+        if (phase == LifePhase::write) progress.clear();  // further lines are the last ones
         if (observer.phase) observer.phase(phase);
     };
     both.progress = [&](const RenderProgress& now, const Roster& workers) {

@@ -9,32 +9,32 @@
 
 namespace treefarm {
 
-/// How a series of renders was started, and where it speaks.
+/// Command and console of a series of renders.
 struct SeriesContext {
     RenderOrigin origin;
     RenderWorkers workers;    ///< at the other end of a channel
     RenderObserver observer;  ///< of each render
-    ConsolePtr console;       ///< for how far the series is
+    ConsolePtr console;       ///< for the progress of the series
     Log log;                  ///< of the series
-    bool overwrite = false;   ///< other results that its folder holds
+    bool overwrite = false;   ///< other results in its folder may be replaced
 };
 
-/// The observer, and how far the render is on a console; both outlive it.
+/// Observer that also shows the render's progress on a console; both arguments must outlive it.
 RenderObserver shown_by(Progress& progress, const RenderObserver& observer);
 
-/// Renders one after another in one allocation: workers stay, and are told to join the next one.
+/// Series of renders within one allocation: workers stay, and are told to join the next job.
 class RenderSeries {
   public:
     explicit RenderSeries(const SeriesContext& context) : context_(context) {}
 
-    /// Runs the request in a folder. What happens within stands in the folder's log.txt; the console says how far it is
-    /// as `frame` has it. `pass`: RenderObserver::pass. Throws InputError as treefarm::render() does.
+    /// Runs the request in a folder, whose log.txt has the details; the console shows the progress in the form `frame`.
+    /// `pass`: RenderObserver::pass. Throws InputError as treefarm::render() does.
     RenderOutcome render(RenderRequest& request, const std::filesystem::path& folder, StatusFrame frame,
                          const decltype(RenderObserver::pass)& pass = {});
 
-    /// Workers that were given up and are not back.
+    /// Workers that were lost and are not back.
     const std::set<int>& lost_peers() const { return turn_.absent; }
-    /// Nobody is left to render with.
+    /// Whether no worker is left.
     bool has_lost_all() const;
 
   private:

@@ -25,25 +25,25 @@ void check_directory(const fs::path& run) {
     if (!fs::exists(run / kCheckpointFolder)) refuse_if_at_work(run);
     if (!fs::exists(run / kCheckpointFolder))
         refuse(run, "holds no checkpoint: too little was done, or none was to be kept",
-               "render again: treefarm render " + shell_quoted((run / "job.toml").string()));
+               "render again: treefarm render " + shell_quoted((run / kJobFile).string()));
 }
 
-/// Refuses what would not go on to the same bits. `set`: what --set gives.
+/// Throws InputError if the render could not continue to the same bits. `set`: the settings of --set.
 void check_origin(const fs::path& run, const CheckpointOrigin& origin, const RenderRequest& request,
                   const std::vector<std::string>& set) {
-    const std::string again = "treefarm render " + shell_quoted((run / "job.toml").string());
+    const std::string again = "treefarm render " + shell_quoted((run / kJobFile).string());
     if (origin.fingerprint != request.origin.fingerprint.hash())
         refuse(run,
                "was rendered by another build (" + origin.build + "; this is " + request.origin.fingerprint.text() +
-                   "): its bits could not go on",
+                   "): it could not continue to the same bits",
                "use that program, or: " + again + " --schedule " + shell_quoted((run / kScheduleFile).string()));
     const std::string changed =
-        first_difference(read_resolved(origin.resolved, (run / "resolved.toml").string()), request.content.plan.job);
+        first_difference(read_resolved(origin.resolved, (run / kResolvedFile).string()), request.content.plan.job);
     if (!changed.empty()) {
         std::string new_job = again;
         for (const std::string& argument : set)
             new_job += " --set " + shell_quoted(argument);
-        refuse(set.empty() ? run / "job.toml" : fs::path("--set"),
+        refuse(set.empty() ? run / kJobFile : fs::path("--set"),
                set.empty() ? "is not the job of the render: " + changed : "would make another render: " + changed,
                "only farm.*, output.* and the budget may change; for the new job: " + new_job);
     }
@@ -53,7 +53,7 @@ void check_origin(const fs::path& run, const CheckpointOrigin& origin, const Ren
                "resume needs the old files; for the new scene: " + again);
 }
 
-/// Whether the render was asked for by another budget.
+/// Whether the budget differs from the stored render's.
 bool has_new_budget(const LoadedCheckpoint& loaded, const Job& now) {
     const Job before = read_resolved(loaded.origin.resolved, "the checkpoint");
     const auto keys = job_keys();
@@ -66,18 +66,18 @@ std::shared_ptr<LoadedCheckpoint> load(const fs::path& run, const RenderRequest&
                                        const std::vector<std::string>& set = {}) {
     auto loaded = std::make_shared<LoadedCheckpoint>(
         load_checkpoint(run, [&](const CheckpointOrigin& origin) { check_origin(run, origin, request, set); }));
-    // A new budget starts its own reckoning of how to end.
+    // A new budget starts its own plan of the last passes.
     if (has_new_budget(*loaded, request.content.job)) loaded->state.history.budget.ending = false;
     return loaded;
 }
 
-/// Whether the run has written all that these samples give.
+/// Whether the run has written all results of `spp` samples.
 bool has_written(const fs::path& run, const RenderRequest& request, std::uint32_t spp) {
     const std::string& output = request.content.job.output.file;
     return holds_result(run) && read_figures(run).spp == spp && (output.empty() || fs::exists(output));
 }
 
-/// Goes on from what was loaded. Throws InputError where nothing is left to do.
+/// Sets the request up to resume from a checkpoint. Throws InputError if nothing is left to do.
 void go_on_from(std::shared_ptr<LoadedCheckpoint> checkpoint, const fs::path& run, RenderRequest& request) {
     request.start.checkpoint = std::move(checkpoint);
     const LoadedCheckpoint& loaded = *request.start.checkpoint;
@@ -91,7 +91,7 @@ void go_on_from(std::shared_ptr<LoadedCheckpoint> checkpoint, const fs::path& ru
                "add samples with --spp N above that, or --seconds or --error beyond what it has");
 }
 
-/// What of these settings --set gives, or could give.
+/// Settings among these that --set gives, or could give.
 std::vector<std::string> set_arguments(const std::vector<Setting>& settings) {
     constexpr std::string_view kOption = "--set ";
     std::vector<std::string> arguments;
@@ -107,8 +107,8 @@ std::vector<std::string> set_arguments(const std::vector<Setting>& settings) {
 
 RenderRequest read_resumed(const fs::path& run, RenderInput input, const RenderOrigin& origin) {
     check_directory(run);
-    input.file = (run / "job.toml").string();
-    input.reads_model = false;  // the checkpoint has what became of it
+    input.file = (run / kJobFile).string();
+    input.reads_model = false;  // the checkpoint contains the model learned from it
     const std::vector<std::string> set = set_arguments(input.settings);
     input.settings.push_back({"output.directory", run.string(), Location{"--run-dir", 0, 0}});
     RenderRequest request = read_request(input, origin);
@@ -119,14 +119,14 @@ RenderRequest read_resumed(const fs::path& run, RenderInput input, const RenderO
 }
 
 void check_run_folder(const fs::path& run) {
-    if (fs::exists(run / "job.toml")) return;
+    if (fs::exists(run / kJobFile)) return;
     if (fs::is_directory(run)) refuse_if_at_work(run);
     refuse(run, "is no run directory", "name the folder that a render wrote its files to");
 }
 
 std::optional<RenderOutcome> go_on_in_folder(RenderRequest& request) {
     const fs::path run = request.content.job.output.directory;
-    if (run.empty()) refuse("--resume", "does not know in which folder to go on", "name it with --run-dir");
+    if (run.empty()) refuse("--resume", "needs a folder to resume in", "name it with --run-dir");
     if (holds_result_of(run, request) && restore_output(run, request.content.job.output.file)) {
         RenderOutcome outcome;
         outcome.state = RunState::done;
@@ -141,7 +141,7 @@ std::optional<RenderOutcome> go_on_in_folder(RenderRequest& request) {
             if (!request.storage.overwrite) throw;
             request.start.checkpoint = nullptr;
         }
-    // What was broken off and cannot go on is begun again.
+    // An unfinished render that cannot be resumed is started again.
     request.storage.overwrite = request.storage.overwrite || !holds_result(run);
     return std::nullopt;
 }
@@ -150,7 +150,7 @@ std::shared_ptr<LoadedCheckpoint> find_checkpoint(const fs::path& run, const Ren
     if (run.empty() || !fs::exists(run / kCheckpointFolder)) return nullptr;
     try {
         return load(run, request);
-    } catch (const InputError&) {  // it only saves time
+    } catch (const InputError&) {  // the checkpoint only saves time
         return nullptr;
     }
 }

@@ -10,20 +10,20 @@
 
 namespace treefarm {
 
-/// Throws InputError if the folder is no run directory, or not yet.
+/// Throws InputError if a folder is no run directory, or not yet.
 void check_run_folder(const std::filesystem::path& run);
 
-/// A request that continues the render in a run directory from its newest usable checkpoint. `input`: settings and
-/// budget that are new; its file is that of the run directory. Throws InputError where the render cannot go on from
-/// there to the same bits; nothing has been written then.
+/// Request that resumes the render in a run directory from its newest usable checkpoint. `input`: new settings and
+/// budget; its file is that of the run directory. Throws InputError, before anything is written, if the render could
+/// not continue to the same bits.
 RenderRequest read_resumed(const std::filesystem::path& run, RenderInput input, const RenderOrigin& origin);
 
-/// Lets a request continue what the folder that it names holds of it: from its newest usable checkpoint, or from the
-/// start where there is none. Returns the outcome where its result is there, and has its output file made if that is
-/// missing. Throws InputError where the folder holds a checkpoint of another render, and overwriting is not asked for.
+/// Lets a request resume from its folder: from the newest usable checkpoint, or from the start without one. Returns the
+/// outcome if its result exists already, after restoring a missing output file. Throws InputError if the folder holds
+/// another render's checkpoint, unless overwriting is allowed.
 std::optional<RenderOutcome> go_on_in_folder(RenderRequest& request);
 
-/// The newest usable checkpoint of this very render in a run directory; nullptr where there is none.
+/// Newest usable checkpoint of this render in a run directory; nullptr if there is none.
 std::shared_ptr<LoadedCheckpoint> find_checkpoint(const std::filesystem::path& run, const RenderRequest& request);
 
 }  // namespace treefarm

@@ -97,7 +97,7 @@ std::string render_words(const fs::path& folder) {
     std::string state = words_of(summary, "state"), spp = count_of(summary, "spp");
     if (state.empty()) state = words_of(status, "state");
     if (spp.empty()) spp = count_of(status, "spp_done");
-    if (state.empty() || state == "running") state = "broken off";  // nobody has the folder any more
+    if (state.empty() || state == "running") state = "broken off";  // no process uses the folder any more
     return state + ", " + (spp.empty() ? "0" : spp) + " spp";
 }
 

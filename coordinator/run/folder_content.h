@@ -17,7 +17,7 @@ enum class FolderContent {
 };
 FolderContent folder_content(const std::filesystem::path& folder);
 
-/// Name of the place where an earlier run lies aside in its folder: "previous", "previous-2", ... by number from 1.
+/// Subfolder name of an earlier run that was set aside: "previous", "previous-2", ... by number from 1.
 std::string previous_name(int number);
 /// Earlier runs that were set aside in a folder.
 std::vector<std::filesystem::path> previous_runs(const std::filesystem::path& folder);

@@ -6,7 +6,7 @@
 
 namespace treefarm {
 
-/// Keeps a folder for one program at a time, until it is destroyed or its process ends. Not to be moved.
+/// Lock of a folder for one program, until it is destroyed or its process ends. Not to be moved.
 class FolderLock {
   public:
     /// Waits up to `patience` seconds for another owner: the ranks of a killed launcher live on for a moment.

@@ -8,7 +8,7 @@
 
 namespace treefarm {
 
-/// What a coordinator is about.
+/// Phase of a coordinator's work.
 enum class LifePhase : std::uint8_t {
     start,    ///< nothing has been read yet
     scene,    ///< the input is being read

@@ -11,16 +11,16 @@ namespace {
 struct Figure {
     RunKey key;
     RunJson value;
-    bool in_table = true;  ///< passes.csv has a field for it, empty where this is false
+    bool in_table = true;  ///< passes.csv has a value for it; false: an empty field
 };
 
-/// Names in the order of Trust.
+/// Name of a trust, in the order of Trust.
 const char* trust_name(Trust trust) {
     constexpr const char* kNames[] = {"", "noisy", "learning", "firm"};
     return kNames[static_cast<std::size_t>(trust)];
 }
 
-/// The figures of a pass, in the order of kPassFigures.
+/// Figures of a pass, in the order of kPassFigures.
 std::vector<Figure> figures(const PassReport& r) {
     const bool has_goal = r.target.relative_error > 0, has_target = r.error.known && has_goal;
     const Spread& trace = r.seconds.trace;

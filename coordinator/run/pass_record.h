@@ -8,14 +8,14 @@
 
 namespace treefarm {
 
-/// An estimate as the files of a run have it; null where the error is not known. What is infinite is written as null.
+/// JSON of an error estimate in a run's files; null if the error is unknown. Infinite values are null.
 RunJson error_record(const ErrorEstimate& error);
 RunJson forecast_record(const ErrorForecast& forecast);
 
-/// The figures of a pass for `place`, kInSummary or kInCell.
+/// JSON of a pass's figures for `place`, kInSummary or kInCell.
 RunJson pass_record(const PassReport& report, unsigned place);
 
-/// passes.csv: the header line and the line of a pass, without line ends.
+/// Header line and a pass's line of passes.csv, without line ends.
 std::string pass_csv_header();
 std::string pass_csv_line(const PassReport& report);
 

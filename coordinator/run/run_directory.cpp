@@ -95,7 +95,7 @@ RunDirectory::RunDirectory(const Job& job, RunFacts facts, const EffectPlan& pla
       checkpoints_(path(), job, origin_of_checkpoints(), options.resumed) {
     if (options.resumed) {
         if (newest_generation(path()) != options.resumed->newest)
-            throw InputError(Location{path().string(), 0, 0}, "another render has gone on with it meanwhile",
+            throw InputError(Location{path().string(), 0, 0}, "another process has resumed it meanwhile",
                              "start again");
         for (const PassReport& report : options.resumed->state.reports)
             note_pass(report);
@@ -288,7 +288,7 @@ std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outli
         if (has_preview(result.image->mean.size()))
             add(kPreviewFile, [=, this] { write_bytes(kPreviewFile, picture(), outlives); });
     }
-    // Only where the folder vanished: they were written at the start.
+    // Only if the folder vanished: they were written at the start.
     for (const auto& [name, text] : {std::pair(kJobFile, &job_toml_), std::pair(kResolvedFile, &resolved_toml_),
                                      std::pair(kPlanTextFile, &plan_text_), std::pair(kPlanFile, &plan_json_)})
         if (std::error_code none; !fs::exists(path() / name, none))
@@ -310,7 +310,7 @@ std::vector<LastFile> RunDirectory::end_files(const RenderResult& result, const 
 
 void RunDirectory::write_interruption(const RenderResult& result, const Farm* farm, double elapsed_seconds) {
     if (!result.passes.empty() && !image_is_on_disk(result)) return;
-    writer_.forget(kStatusFile);  // "running" must not come after it
+    writer_.forget(kStatusFile);  // a waiting "running" must not be written later
     const RunEnd end{RunState::interrupted, "", elapsed_seconds, ""};
     std::vector<LastFile> files = end_files(result, farm, end, Outlives::process);
     write_last_files(files, 0.0);

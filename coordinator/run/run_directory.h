@@ -45,7 +45,7 @@ class RunDirectory {
 
     const std::filesystem::path& path() const { return folder_.path(); }
     std::filesystem::path log_file() const { return path() / kLogFile; }
-    std::size_t passes() const { return passes_.size(); }  ///< that are finished
+    std::size_t passes() const { return passes_.size(); }  ///< number of finished passes
 
     /// Writes the files known before the render, in place of those of the resumed run, once it continues. Throws as the
     /// constructor.

@@ -25,7 +25,7 @@ Json build_json(const Fingerprint& build) {
             {"program", hash_text(build.program)}};
 }
 
-/// In the order of MemberState and RunState.
+/// Names in the order of MemberState and RunState.
 constexpr const char* kMemberStates[] = {"present", "lost", "refused", "left", "barred"};
 constexpr const char* kRunStates[] = {"running", "done", "interrupted", "failed"};
 

@@ -20,11 +20,11 @@ enum class FrameState : std::uint8_t {
     interrupted,  ///< the image of its finished passes exists
 };
 
-/// A frame of a shot, and what is told of it.
+/// A frame of a shot, with its reported figures.
 struct FrameRecord : RenderFigures {
     int frame = 0;
     FrameState state = FrameState::waiting;
-    std::string message;  ///< what went wrong
+    std::string message;  ///< reason of the failure
 };
 
 /// Name of a frame's run directory within that of the shot: "frame.0007".

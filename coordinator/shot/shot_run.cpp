@@ -154,8 +154,8 @@ class ShotRun {
             return;
         }
         tell_warnings(request);
-        // What was broken off and cannot go on is begun again, but another request's result is replaced only where that
-        // is asked for.
+        // An unfinished frame that cannot be resumed is started again; another request's result is replaced only on
+        // request.
         request.storage.overwrite = context_.overwrite || is_there || !holds_result(folder);
         const RenderOutcome outcome =
             series_.render(request, folder, [this](const RenderWords& words) { return progress_.status(words); });

@@ -20,10 +20,10 @@ struct ShotOutcome {
     std::set<int> lost_peers;
 };
 
-/// Renders the frames that are not there yet, in one allocation of workers, and leaves in the shot's folder:
-///   shot.json      how every frame stands
-///   frame.0001/    a run directory each
-/// A frame that fails stops no other. Throws InputError where the folder cannot be a shot's.
+/// Renders the missing frames within one allocation of workers, and writes to the shot's folder:
+///   shot.json      state of every frame
+///   frame.0001/    run directory of a frame
+/// A failing frame stops no other. Throws InputError if the folder has other content.
 ShotOutcome run_shot(const Shot& shot, const SeriesContext& context);
 
 }  // namespace treefarm

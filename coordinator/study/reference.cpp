@@ -8,6 +8,7 @@
 
 #include "common/base/hash.h"
 #include "common/image/exr.h"
+#include "common/runs/run_files.h"
 
 namespace treefarm {
 
@@ -49,7 +50,7 @@ std::string reference_key(const Study& study, const StudyScene& scene, const Loa
     }
     request = study_request(study, scene, loaded, study.reference.settings, {}, origin);
     const std::uint64_t key = request_key(request, "reference");
-    reference.file = (fs::path(study.directory) / "references" / folder_name(scene.name, key) / "image.exr").string();
+    reference.file = (fs::path(study.directory) / "references" / folder_name(scene.name, key) / kImageFile).string();
     return hash_text(key);
 }
 

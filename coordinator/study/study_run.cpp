@@ -9,6 +9,7 @@
 #include "common/base/files/atomic_file.h"
 #include "common/base/text/parse_text.h"
 #include "common/image/exr.h"
+#include "common/runs/run_files.h"
 #include "coordinator/farm/pulse.h"
 #include "coordinator/run/folder_lock.h"
 #include "coordinator/run/result_image.h"
@@ -50,7 +51,7 @@ std::string cell_words(const Study& study, const StudyCell& cell) {
 struct ReadyCell {
     RenderRequest request;
     fs::path folder;
-    bool done() const { return fs::exists(folder / "cell.json"); }
+    bool done() const { return fs::exists(folder / kCellFile); }
 };
 
 ReadyCell ready_cell(const Study& study, const StudyCell& cell, const LoadedScene& loaded,
@@ -140,7 +141,7 @@ class StudyRun {
         run_in_background(make_ready, [&] { pulse_.beat(); });
         prepare_reference(scene, reference, reference_request);
         description_["scenes"][scene]["reference"] = reference.about;
-        write_json(directory_ / "study.json", description_);
+        write_json(directory_ / kStudyFile, description_);
         warm_up(scene, ready);
         std::size_t k = 0;
         for (const StudyCell& cell : cells_)
@@ -174,7 +175,7 @@ class StudyRun {
                 };
                 if (render(request, folder, frame).state != RunState::done)
                     throw RunError("the reference of " + of.name + " could not be rendered: see " +
-                                   (folder / "log.txt").string());
+                                   (folder / kLogFile).string());
             }
         }
         const ExrRgb image = read_exr_rgb(reference.file);
@@ -186,7 +187,7 @@ class StudyRun {
         if (of.reference.empty()) write_json(reference.mark(), reference.about);
     }
 
-    /// A run in a folder of its own. What a killed run left there goes first.
+    /// Renders in a folder of its own, after removing partial files of a killed run.
     RenderOutcome render(RenderRequest& request, const fs::path& folder, StatusFrame frame,
                          const decltype(RenderObserver::pass)& pass = {}) {
         if (interrupted_()) throw Interrupted();
@@ -218,7 +219,7 @@ class StudyRun {
         };
         const auto frame = [this](const RenderWords& words) { return progress_.status(words); };
         if (render(ready.request, ready.folder, frame, measure).state == RunState::failed) {
-            log_->error("{}: failed, see {}", cell_words(study_, cell), (ready.folder / "log.txt").string());
+            log_->error("{}: failed, see {}", cell_words(study_, cell), (ready.folder / kLogFile).string());
             if (++failures_ >= kMostFailures)
                 throw RunError("too many cells failed; the same command tries them again");
             return;
@@ -226,7 +227,7 @@ class StudyRun {
         Json record;
         run_in_background([&] { record = render_record(passes, reference.image); }, [&] { pulse_.beat(); });
         tell(cell, record);
-        write_json(ready.folder / "cell.json", record);
+        write_json(ready.folder / kCellFile, record);
         progress_.end(timer.seconds());
     }
 

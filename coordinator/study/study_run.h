@@ -13,14 +13,14 @@ struct StudyOutcome {
     std::set<int> lost_peers;
 };
 
-/// Runs a study's cells that are not there yet, in one allocation of workers, and leaves in its folder:
-///   study.json                    what is compared, and the cells' folders in order
-///   references/NAME/image.exr     those that were rendered
-///   cells/NAME/                   a run directory each, with cell.json: written last, so a cell with one is whole
-/// A folder's name holds a hash of all that decides its content, so a changed study finds what still holds.
+/// Renders a study's missing cells within one allocation of workers, and writes to its folder:
+///   study.json                    the compared methods and scenes, and the cells' folders in order
+///   references/NAME/image.exr     rendered references
+///   cells/NAME/                   run directory of a cell, with cell.json: written last, as a mark of completeness
+/// A folder's name contains a hash of all that decides its content, so that a changed study reuses the valid cells.
 StudyOutcome run_study(const Study& study, const SeriesContext& context);
 
-/// Lists the cells in the order in which they would run, and which of them are there.
+/// Prints the cells in their order of rendering, and which of them exist.
 void list_cells(const Study& study, const RenderOrigin& origin, std::ostream& out);
 
 }  // namespace treefarm

@@ -11,11 +11,11 @@
 namespace treefarm {
 namespace {
 
-constexpr double kNoisePart = 0.4;          ///< of an image's noise, by the fewest pixels that carry it
-constexpr double kToldShare = 0.001;        ///< of all pixels: fewer that carry so much are told
-constexpr std::size_t kLeastPixels = 4096;  ///< of smaller images a thousandth is a handful
+constexpr double kNoisePart = 0.4;          ///< fraction of an image's noise whose fewest pixels are counted
+constexpr double kToldShare = 0.001;        ///< fraction of all pixels: fewer that carry so much noise are reported
+constexpr std::size_t kLeastPixels = 4096;  ///< in smaller images a thousandth is only a few pixels
 
-/// The samples of passes that have weight in the image, which are the last ones.
+/// Worst samples of the passes that contribute to the image, which are the last ones.
 TailSamples samples_of_image(const CombinedImage& image, std::span<const PassReport> passes) {
     TailSamples all;
     const std::size_t count = std::min(image.weight.size(), passes.size());

@@ -14,8 +14,8 @@ namespace treefarm {
 /// Report on the samples that carry an image's noise (docs/design/error.md, "fireflies").
 struct TailReport {
     std::optional<double> share;  ///< of the fewest pixels with two fifths of it; nothing: none is known
-    TailSamples worst;            ///< of all passes in the image; noise is that of the image
-    std::string origin;           ///< in words, that of most of their noise; "": none is known
+    TailSamples worst;            ///< of all passes in the image; noise relative to the image
+    std::string origin;           ///< in words, of most of their noise; "": unknown
 
     /// Whether few samples carry so much noise that the user should be told.
     bool stands_out = false;

@@ -7,7 +7,7 @@
 namespace treefarm::test {
 namespace {
 
-constexpr FarmLimits kShort{.gather = 1, .lost = 0.3, .dismiss = 20};
+constexpr FarmLimits kShortJob{.gather = 1, .lost = 0.3, .dismiss = 20};
 
 class JobsTest : public FarmTest {
   protected:
@@ -50,7 +50,7 @@ TEST_F(JobsTest, ALostWorkerIsNotWaitedForAndMayComeBack) {
     make_workers(2);
     expect_truth(next());
     faulty_[0]->cut = true;
-    expect_truth(next(kShort));
+    expect_truth(next(kShortJob));
     EXPECT_EQ(lost_, std::set<int>{1});
     const Timer timer;
     expect_truth(next());

@@ -7,7 +7,7 @@ namespace treefarm::test {
 namespace {
 
 /// Faults that are only seen by silence: short limits.
-constexpr FarmLimits kShort{.gather = 20, .lost = 0.3, .dismiss = 20};
+constexpr FarmLimits kShortSilence{.gather = 20, .lost = 0.3, .dismiss = 20};
 
 /// Sees what arrived during a pause only at its second look, as MPI over TCP may.
 class DrowsyChannel final : public Channel {
@@ -44,7 +44,7 @@ TEST_F(FarmTest, WhenAllAreSilentForAWhileTheFarmWaitsForThem) {
         return true;
     };
     faulty_[0]->outgoing = darken;
-    expect_truth(render(kShort));
+    expect_truth(render(kShortSilence));
     mend.join();
     EXPECT_TRUE(lost_.empty()) << "they are back";
 }
@@ -58,7 +58,7 @@ TEST_F(FarmTest, WhenNobodyComesBackTheRunEnds) {
         if (is<Result>(bytes) && ++results == 2) faulty_[0]->cut = faulty_[1]->cut = true;
         return true;
     };
-    FarmLimits limits = kShort;
+    FarmLimits limits = kShortSilence;
     limits.grace = 0.5;
     EXPECT_THROW(render(limits), RunError);
 }
@@ -103,7 +103,7 @@ TEST_F(FarmTest, ACoordinatorThatWasBusyGivesNobodyUp) {
     for (std::size_t w = 0; w < 2; ++w)
         start_worker(w);
     DrowsyChannel channel(*channels_[0]);
-    Farm farm(channel, job_, kScene, kFingerprint, quiet_log(), kShort);
+    Farm farm(channel, job_, kScene, kFingerprint, quiet_log(), kShortSilence);
     farm.gather([] { return false; });
     PassHooks hooks;
     hooks.on_pass = [&](const PassReport& pass, const CombinedImage&) {

@@ -54,13 +54,13 @@ class LaunchWorld {
         status->pid = 42;
     }
     void die() { running = false; }
-    /// Exit code of the launch when the attempt's processes are gone; nothing if it goes on.
+    /// Exit code of the launch after the end of the attempt's processes; no value if it continues.
     std::optional<int> code_after_death() {
         die();
         step();
         return end ? std::optional(end->code) : std::nullopt;
     }
-    /// The coordinator says its exit code, and all its processes leave.
+    /// Reports the coordinator's exit code; all its processes leave.
     void finish(int code) {
         if (!status) appear();
         status->code = code;

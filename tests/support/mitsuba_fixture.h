@@ -13,7 +13,7 @@
 
 namespace treefarm::test {
 
-/// Writes files below the test's temporary folder and reads them.
+/// Fixture that writes files below the test's temporary folder, and reads them.
 class MitsubaFixture : public FolderTest {
   protected:
     void SetUp() override { std::filesystem::create_directories(folder_ / "sub"); }

@@ -7,12 +7,12 @@
 
 namespace treefarm {
 
-/// Whether 8- and 16-bit files hold sRGB-encoded colours or plain numbers (roughness, bump, mask).
+/// Encoding of 8- and 16-bit files: sRGB colours, or linear numbers (roughness, bump, mask).
 enum class Encoding { srgb, linear };
 
-/// Reads a PNG (8 or 16 bits) or JPEG as floats, 1 is the file's white: the channels Y, or R, G, B, each with A where
-/// the file has one (A is never decoded as sRGB). Throws InputError that names the file: missing, another format,
-/// damaged, too large.
+/// Reads a PNG (8 or 16 bits) or JPEG as floats, with 1 for the file's white: the channels Y, or R, G, B, and A if the
+/// file has it (A is never decoded as sRGB). Throws InputError, which names the file, if it is missing, damaged, too
+/// large, or of another format.
 Image read_ldr(const std::filesystem::path& path, Encoding encoding);
 
 }  // namespace treefarm

@@ -7,7 +7,7 @@
 
 namespace treefarm::test {
 
-/// The message of the InputError that an act ends with; `accepted` if it ends without.
+/// Message of the InputError that `act` throws; `accepted` if it throws none.
 template <class Act>
 std::string refusal_of(const Act& act, const std::string& accepted = "") {
     try {

@@ -40,8 +40,8 @@ inline void expect_z_tests_pass(const ZTestInput& input) {
         EXPECT_LT(std::abs(z), 4.0);
 }
 
-/// Holds an image against that of paths, as far as both are known, in blocks and as a whole. `noise`: of its mean, at
-/// most.
+/// Compares an image with path tracing's within both uncertainties, in blocks and as a whole. `noise`: largest allowed
+/// noise of its mean.
 inline void expect_same_image(const Rendered& image, const Rendered& path, const std::string& what,
                               double noise = 0.02) {
     ZTestOptions options;

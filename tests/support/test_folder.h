@@ -8,21 +8,21 @@
 
 namespace treefarm::test {
 
-/// The whole text of a file; "" if there is none.
+/// Content of a file; "" if there is none.
 std::string read_file(const std::filesystem::path& file);
 
-/// Writes a file, in folders that need not be there yet.
+/// Writes a file, and creates missing folders.
 void write_file(const std::filesystem::path& file, const std::string& text);
 
-/// A folder of the running test alone, which exists.
+/// Folder of the running test; created if missing.
 std::filesystem::path test_folder();
-/// The test's folder, emptied.
+/// Folder of the running test, emptied.
 std::filesystem::path fresh_test_folder();
 
-/// A test with a folder of its own, which is empty when it begins.
+/// Test with a folder of its own, empty at the beginning.
 class FolderTest : public ::testing::Test {
   protected:
-    /// Writes a file of the folder.
+    /// Writes a file in the folder.
     std::filesystem::path write(const std::string& name, const std::string& text) const {
         write_file(folder_ / name, text);
         return folder_ / name;

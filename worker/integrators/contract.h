@@ -19,7 +19,7 @@ namespace treefarm {
 /// at once with different outputs, each cleared by its caller.
 using RenderUnit = std::function<void(const PassPlan&, const AnySampler&, const WorkUnit&, UnitOutput&)>;
 
-/// Decoder of the scene, which also prepares the job's integrator; called once per job, may take seconds.
+/// Decodes the scene, prepares the integrator; once per job, may take seconds.
 using MakeRenderer = std::function<RenderUnit(std::span<const std::uint8_t> scene, const Job&)>;
 
 /// An estimator: its name, and the function that prepares it for a scene and a job. Its capabilities are stated in its

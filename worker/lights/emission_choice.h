@@ -25,7 +25,7 @@ class EmissionChoice {
             sum += weights.back();
         }
         if (!(sum > 0)) return;
-        // What was learned may be wrong: none is chosen much less often than by power.
+        // Learned values may be wrong: no emitter is chosen much less often than by power.
         constexpr auto kUnlearned = double(0.2f);
         for (std::uint32_t i = 0; i < power.size(); ++i)
             weights[i] = (1 - kUnlearned) * weights[i] / sum + kUnlearned * double(power.probability(i));

@@ -81,7 +81,7 @@ struct Bsdf {
         return visit([&](const auto& bsdf) { return bsdf.sample(wo, random); });
     }
 
-    /// The other way out of smooth glass, on the opposite side of `taken`; density 0 for other BSDFs, or if there is
+    /// The other branch of smooth glass, on the opposite side of `taken`; density 0 for other BSDFs, or if there is
     /// none.
     BsdfSample other_branch(const Vec3& wo, const Vec3& taken) const {
         if (!visit([](const auto& bsdf) { return has_two_branches<std::decay_t<decltype(bsdf)>>(); })) return {};

@@ -36,7 +36,7 @@ double GridCells::learn(const GridModel& model, const CellSums& sums, const Refi
     if (settings.with_flux)
         next.flux[region] =
             learned_flux(recorded, sums.counts()[region], model.quantum_exponent[region], next.flux[region]);
-    // Least variance has probabilities in proportion to the root of the second moment.
+    // Variance is least if probabilities are proportional to the root of the second moment.
     if (settings.target == GuidingTarget::variance)
         for (double& e : energy)
             e = std::sqrt(e);

@@ -20,7 +20,7 @@ class GridSampler : public StrataSampler {
   public:
     explicit GridSampler(const GridModel& model) : StrataSampler(model, model.mass) {}
 
-    /// Mean radiance that the region has learned of this direction; negative where it has learned nothing.
+    /// Mean radiance learned for this direction in the region; negative if nothing was learned.
     float radiance(std::uint32_t region, std::uint32_t code) const;
 };
 

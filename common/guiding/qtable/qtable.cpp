@@ -11,7 +11,7 @@
 namespace treefarm {
 namespace {
 
-/// Probabilities of all strata, in proportion to max(Q, floor).
+/// Probabilities of all strata, proportional to max(Q, floor).
 std::vector<std::uint32_t> strata_of(const QTableModel& model) {
     std::vector<std::uint32_t> mass(model.q.size());
     std::array<double, kStrata> weight;

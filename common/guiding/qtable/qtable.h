@@ -29,7 +29,7 @@ class QTableSampler : public StrataSampler {
 
     static constexpr bool kCountsVisits = true;
 
-    /// Q. What was never visited is 0, as the method begins.
+    /// Value Q; 0 for strata without visits, the initial value of the method.
     float radiance(std::uint32_t region, std::uint32_t code) const { return q_[cell(region, code)]; }
 
     std::size_t bytes() const { return StrataSampler::bytes() + q_.size() * sizeof(q_[0]); }

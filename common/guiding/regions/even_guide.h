@@ -28,7 +28,7 @@ class EvenLearner {
         return next;
     }
 
-    /// Lists what it remembers, for a checkpoint.
+    /// Archives the state, for a checkpoint.
     template <class Archive>
     void serialize(Archive& archive) {
         archive(cells_, regions_);
@@ -39,9 +39,9 @@ class EvenLearner {
     RegionLearner regions_;
 };
 
-/// Guide (guides.h) of even regions and strata of directions (strata.h). `Cells` is the guide's own part: Model,
-/// Sampler, kMagic and kCost; begin(), write() and read() of the model's values of cells; learn(), which sets those of
-/// one region from a pass and returns the sum of the region's records.
+/// Guide (guides.h) of even regions and strata of directions (strata.h). `Cells` is the guide's own part: the types
+/// Model and Sampler, the constants kMagic and kCost; begin(), write() and read() for the model's values per cell; and
+/// learn(), which sets these values in one region from a pass and returns the sum of the region's records.
 template <class Cells>
 struct EvenGuide {
     using Model = typename Cells::Model;

@@ -10,7 +10,7 @@ namespace treefarm {
 struct FirstModel {
     float radiance_scale = 1.0f;
     float bsdf_fraction = 0.5f;
-    bool with_views = false;     ///< has a T2 with one view,
+    bool with_views = false;     ///< the region has a T2 of one view
     float view_fraction = 0.0f;  ///< probability of sampling that view; 0: learned
     bool with_lights = false;    ///< next event learns to choose emitters
     int grid_halvings = 12;      ///< a fixed grid has 2^this regions

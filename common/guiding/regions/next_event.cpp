@@ -161,7 +161,7 @@ NextEventVerdict decide_next_event(std::span<const NextEventEvidence> evidence, 
             changed = true;
         }
         if (!changed) break;
-        // Second moments bound variances from above: so much of the whole cannot have been theirs.
+        // Second moments bound variances from above, so at least a share of the total must come from elsewhere.
         variance = std::max(variance + variance_change / paths, kLeastRest * variance);
         cost = std::max(cost + cost_change / paths, kLeastRest * cost);
     }

@@ -13,7 +13,7 @@ namespace treefarm {
 /// model goes out of date.
 inline constexpr double kKeptEvidence = 0.5;
 
-/// What a pass costs and how noisy it is: by these a decision on next event weighs noise against rays.
+/// Noise and cost of a pass, by which a decision on next event weighs noise against rays.
 struct NextEventPrice {
     double variance = 0;  ///< of a camera sample, relative to the squared light level of its block
     double rays = 0;      ///< closest-hit rays per camera sample; 0: no decision
@@ -41,7 +41,7 @@ struct RefineSettings {
     bool last_update = false;         ///< last learning step: distributions that are of no use now can be dropped
     bool with_flux = false;           ///< regions learn their flux
     bool views_record_alone = false;  ///< records of views are not in the counts of their regions
-    double view_cells = std::numeric_limits<double>::infinity();  ///< greatest number of T2 cells per T1 cell,
+    double view_cells = std::numeric_limits<double>::infinity();  ///< greatest number of T2 cells per T1 cell
     double least_view_cells = 0;  ///< number of T2 cells up to which view_cells does not apply
     NextEventPrice next_event{};
 };

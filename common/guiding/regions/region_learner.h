@@ -7,11 +7,11 @@
 
 namespace treefarm {
 
-/// The part of every guide's learner: emitters, next event and mixtures by region.
+/// Common part of all learners: emitter choice, next event and mixtures, by region.
 class RegionLearner {
   public:
-    /// Sets all three in `next` from the sums of a pass over `model`. `learn_mixture`: the pass recorded histograms.
-    /// `report` has the origins of the regions, and gets the verdict on next event.
+    /// Sets the three in `next` from the sums of a pass over `model`. `learn_mixture`: the pass recorded mixture
+    /// histograms. `report` provides the origins of the regions and receives the verdict on next event.
     void learn(const RegionModel& model, const CellSums& sums, const RefineSettings& settings, bool learn_mixture,
                RefineReport& report, RegionModel& next) {
         if (model.learns_lights()) lights_.learn(model, sums, report.origins, next);
@@ -19,7 +19,7 @@ class RegionLearner {
         if (learn_mixture) mixture_.learn(model, sums, report.origins, next);
     }
 
-    /// Lists what it remembers, for a checkpoint.
+    /// Archives the state, for a checkpoint.
     template <class Archive>
     void serialize(Archive& archive) {
         archive(lights_, next_event_, mixture_);

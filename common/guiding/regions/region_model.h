@@ -11,8 +11,9 @@
 
 namespace treefarm {
 
-/// How next event chooses an emitter in a region, in parts of kLightProbabilityOne, to which they sum: [0] among all
-/// of them, as where nothing is learned, [c + 1] among those of cluster c (worker/lights/light_tree.h).
+/// Number of emitter clusters. A region's probabilities, in parts of kLightProbabilityOne with this sum, are [0] for a
+/// choice among all emitters as without learning, and [c + 1] for a choice within cluster c
+/// (worker/lights/light_tree.h).
 inline constexpr std::uint16_t kLightProbabilityOne = 1 << 15;
 using LightProbabilities = std::array<std::uint16_t, kLightClusters + 1>;
 
@@ -69,7 +70,7 @@ inline constexpr int kMaxSpatialDepth = 60;  ///< 20 halvings of each axis: floa
 /// Sets the model's cube around `bounds`; edge 1 if the bounds have no extent.
 void set_cube(RegionModel& model, const Box3& bounds);
 
-inline constexpr int kMostQuantumExponent = 200;  ///< no mean of floats asks for one so far from 0
+inline constexpr int kMostQuantumExponent = 200;  ///< no mean of floats needs one so far from 0
 std::int16_t quantum_exponent_for(float mean_record);
 /// Exponent e for the next pass, from the `records` of a pass with the sum `total` in units of 2^`exponent`; `exponent`
 /// itself if there were none.

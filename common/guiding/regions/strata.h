@@ -33,7 +33,7 @@ void set_strata(std::span<const double> weight, double even_part, std::uint32_t*
 /// Regions and their strata in the form that workers sample from.
 class StrataSampler : public RegionSampler {
   public:
-    /// By the probabilities of kStrata strata for each region in turn, of sum 2^kMassBits.
+    /// `mass`: probabilities of kStrata strata for each region, with sum 2^kMassBits.
     StrataSampler(const RegionModel& model, std::vector<std::uint32_t> mass)
         : RegionSampler(model), mass_(std::move(mass)) {}
 
@@ -45,7 +45,7 @@ class StrataSampler : public RegionSampler {
     Sample sample(std::uint32_t region, const Draw& random) const;
     float pdf(std::uint32_t region, std::uint32_t code) const;
 
-    // Where records go: CellAccumulator.
+    // Cells of records, for CellAccumulator.
     std::uint32_t cell_count() const { return static_cast<std::uint32_t>(mass_.size()); }
     static std::uint32_t cell(std::uint32_t region, std::uint32_t code);
     static std::uint32_t cell_side(std::uint32_t region = 0, std::uint32_t code = 0);

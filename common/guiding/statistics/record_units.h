@@ -6,8 +6,8 @@ namespace treefarm {
 /// Clusters of emitters that a region learns to choose between (worker/lights/light_tree.h).
 inline constexpr int kLightClusters = 15;
 
-/// Records are counted in units of 2^e such that a record of average value is 2^15 to 2^16 units: fine enough that
-/// rounding adds nothing measurable, with a cap (2^40 units) 2^24 times the average.
+/// Log2 of the size of a mean record: records are counted in units of 2^e such that the mean record is 2^15 to 2^16
+/// units. That is fine enough for rounding to add no measurable noise, with a cap (2^40 units) at 2^24 times the mean.
 inline constexpr int kMeanRecordBits = 16;
 
 }  // namespace treefarm

@@ -12,8 +12,8 @@
 namespace treefarm {
 namespace {
 
-/// Constants that earlier builds record in resolved.toml, and the values that they have in the code now: whoever
-/// changes one that images depend on raises kResults.
+/// Constants that earlier builds recorded in resolved.toml, with their present values. After a change of one that
+/// images depend on, kResults must be raised.
 constexpr std::string_view kUnrecorded =
     " next_event.least_rest=0.02 levels.block=8 light_subpaths.prior_paths=128 light_subpaths.unlearned=0.2 "
     "walk.split_least=0.00024414062 learning.kept_evidence=0.5 grids.halvings=12 grids.table_halvings=15 "
@@ -24,7 +24,7 @@ constexpr std::string_view kUnrecorded =
     "budget.worth_hedging=0.5 budget.most_late=0.75 tails.outlier=0.25 tails.noise_part=0.4 "
     "tails.told_share=0.001 tails.least_pixels=4096 ";
 
-/// Value in kUnrecorded of a constant; "" if it is not there.
+/// Value of a constant in kUnrecorded; "" if it is not listed.
 std::string_view unrecorded(const std::string& name) {
     const std::size_t at = kUnrecorded.find(" " + name + "=");
     if (at == kUnrecorded.npos) return "";

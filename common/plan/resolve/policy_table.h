@@ -13,7 +13,7 @@ namespace treefarm {
 /// The section [policy] of resolved.toml.
 std::string write_policy();
 
-/// What its constants begin with among settings: "policy.guiding.giving_up".
+/// Prefix of the constants among settings: "policy.guiding.giving_up".
 inline constexpr std::string_view kPolicyPrefix = "policy.";
 
 /// Cure for a resolved.toml that this build cannot repeat.

@@ -78,8 +78,8 @@ std::int16_t usual_splat_exponent(const Scene& scene) {
     const double distance2 = std::max(to_scene.dot(to_scene), radius2);
     const double per_window = double(scene.film.whole_width()) * double(scene.film.whole_height()) /
                               static_cast<double>(scene.film.pixel_count());
-    // A lamp at the lens may light what is far: so near a one is not believed. A coarser quantum is only needed where
-    // splats would come near its caps, 2^30 times the usual one; what is left of these is for rare paths.
+    // A lamp at the lens may light far surfaces, so a very small distance is not trusted. A coarser quantum is needed
+    // only where splats would come near their cap, 2^30 times the usual one; the margin up to it is for rare paths.
     const double power =
         std::max(power_seen(scene, radius2, distance2, 1.0), power_seen(scene, radius2, distance2, kNearest) / kAlike);
     const double splat = power / (2 * M_PI) * per_window;

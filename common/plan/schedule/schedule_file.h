@@ -13,7 +13,8 @@ namespace treefarm {
 /// from the job, so job and schedule together repeat a render's bits.
 std::string write_schedule(std::span<const PassPlan> passes);
 
-/// The passes of such a text; `name` stands for the file in messages. Throws InputError with file:line:column.
+/// Passes from the text of a schedule.toml; `name` stands for the file in messages. Throws InputError with
+/// file:line:column.
 std::vector<PassPlan> parse_schedule(const std::string& toml, const std::string& name, const Resolved& job);
 
 }  // namespace treefarm

@@ -26,7 +26,7 @@ bool begins_with(std::span<const std::uint8_t> bytes, const std::array<std::uint
     return bytes.size() >= kSize && std::equal(magic.begin(), magic.end(), bytes.begin());
 }
 
-/// Format whose pixel data have a known length; empty for other formats.
+/// The format if it is Netpbm, BMP or TGA, whose files are checked for missing pixels; empty for other formats.
 std::optional<ImageFormat> plain_format(std::span<const std::uint8_t> bytes, const std::filesystem::path& path) {
     if (is_netpbm(bytes)) return ImageFormat::netpbm;
     if (is_bmp(bytes)) return ImageFormat::bmp;
@@ -38,7 +38,7 @@ std::optional<ImageFormat> plain_format(std::span<const std::uint8_t> bytes, con
     return std::nullopt;
 }
 
-/// Checks that all pixel data of such a format are present, and sets the size.
+/// Checks that no pixel data of a Netpbm, BMP or TGA file are missing, and sets the size.
 void read_plain_header(EncodedImage& image, std::string& why) {
     if (image.format == ImageFormat::netpbm) {
         if (const auto header = read_netpbm_header(image.bytes, why)) {

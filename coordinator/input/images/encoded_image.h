@@ -19,9 +19,9 @@ struct EncodedImage {
     std::vector<std::uint8_t> bytes;
 };
 
-/// Reads such a file and checks its claimed size against the limits (image.h) and the file's length, so that no decoder
-/// allocates memory for pixels that cannot exist. Throws InputError with the file's name if it is missing, of another
-/// format (`cure`: what to give instead), too large, or cut short.
+/// Reads an image file (formats: EncodedImage) and checks its claimed size against the limits (image.h) and the file's
+/// length, so that no decoder allocates memory for pixels that cannot exist. Throws InputError with the file's name if
+/// it is missing, of another format (`cure`: what to give instead), too large, or cut short.
 EncodedImage read_encoded_image(const std::filesystem::path& path, const std::string& cure,
                                 std::uint64_t most_pixels = ~0ull);
 

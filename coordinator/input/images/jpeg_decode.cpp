@@ -10,8 +10,8 @@
 namespace treefarm {
 namespace {
 
-/// libjpeg reports errors by a long jump, which may leave out no destructor: what has one lives outside of the
-/// functions that are jumped out of.
+/// Decoder around libjpeg, which reports errors by a long jump that must not skip destructors: objects with destructors
+/// live outside of the functions that are jumped out of.
 class JpegDecoder {
   public:
     JpegDecoder(std::span<const std::uint8_t> bytes, std::string& why) : bytes_(bytes), why_(why) {

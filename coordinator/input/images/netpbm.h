@@ -24,7 +24,7 @@ struct NetpbmHeader {
     std::uint64_t data_size() const;
 };
 
-/// Whether the bytes begin like such a file, binary or in plain text.
+/// Whether the bytes begin like a PGM, PPM or PFM file, binary or in plain text.
 bool is_netpbm(std::span<const std::uint8_t> bytes);
 
 /// Header of a file. Empty, with the reason in `why`, if it is malformed, in plain text, or longer than the file.

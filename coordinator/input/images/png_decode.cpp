@@ -13,8 +13,8 @@
 namespace treefarm {
 namespace {
 
-/// libpng reports errors by a long jump, which may leave out no destructor: what has one lives in decode_png(), and
-/// only run() is jumped out of.
+/// Decoder around libpng, which reports errors by a long jump that must not skip destructors: objects with destructors
+/// live in decode_png(), and only run() is jumped out of.
 class PngDecoder {
   public:
     PngDecoder(std::span<const std::uint8_t> bytes, std::string& why)

@@ -321,7 +321,7 @@ TEST_F(TcpChannelTest, AGuestIsToldWhatToDo) {
     };
     JoinTicket ticket = listener_->ticket();
     ticket.run[0] ^= 1;
-    EXPECT_NE(why(ticket).find("another run answers there"), std::string::npos);
+    EXPECT_NE(why(ticket).find("another run uses this address"), std::string::npos);
     ticket = listener_->ticket();
     ticket.secret[0] ^= 1;
     EXPECT_NE(why(ticket).find("the secret of this ticket is not the run's"), std::string::npos);

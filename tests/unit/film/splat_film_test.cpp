@@ -247,7 +247,7 @@ TEST_F(SplatCodec, RefusesWhatCannotBe) {
     expect_refused(encoded(65, -10, 0, {}), "another film");
     expect_refused(encoded(64, -11, 0, {}), "another quantum");
     expect_refused(encoded(64, -10, ~0ull, {}), "too many capped");
-    expect_refused(encoded(64, -10, 0, {{64, 1, 0, 0, 0, 0, 0}}), "a pixel beyond the film");
+    expect_refused(encoded(64, -10, 0, {{64, 1, 0, 0, 0, 0, 0}}), "a splat beyond the film");
     expect_refused(encoded(64, -10, 0, {{63, 1, 0, 0, 0, 0, 0}, {0, 1, 0, 0, 0, 0, 0}}), "the next one");
     expect_refused(encoded(64, -10, 0, {{~0ull, 1, 0, 0, 0, 0, 0}}), "the last skip");
     expect_refused(encoded(64, -10, 0, {{3, 0, 0, 0, 0, 0, 0}}), "an empty pixel");

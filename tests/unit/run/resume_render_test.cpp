@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kFingerprint = 1;
 
-Log quiet_log() {
+Log render_log() {
     return std::make_shared<spdlog::logger>("test");
 }
 
@@ -51,9 +51,9 @@ class Stopped {
         auto channels = make_in_process_channels(2);
         std::thread worker([&] {
             run_worker(*channels[1], {.threads = 1, .host = "here", .fingerprint = kFingerprint}, make_renderer,
-                       quiet_log());
+                       render_log());
         });
-        Farm farm(*channels[0], job_, encode_scene(scene_), kFingerprint, quiet_log());
+        Farm farm(*channels[0], job_, encode_scene(scene_), kFingerprint, render_log());
         farm.gather([] { return false; });
         std::size_t done = state.reports.size();
         CheckpointOrigin origin;

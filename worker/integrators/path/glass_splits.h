@@ -10,7 +10,7 @@
 
 namespace treefarm {
 
-/// Splits at smooth glass, which has two ways out. Where the camera sees it, a path takes the likelier way with
+/// Splits at smooth glass, which has two branches. Where the camera sees it, a path takes the likelier branch with
 /// certainty, and the other one, of probability p, is also followed with probability min(1, 4 p), weighted accordingly
 /// and added to the same sample. The refracted image thus has no noise from the choice, a reflection has a quarter of
 /// the noise or less, and a faint reflection does not cost a whole path.
@@ -21,14 +21,14 @@ class GlassSplits {
     std::uint32_t size() const { return static_cast<std::uint32_t>(branches_.size()); }
     void clear() { branches_.clear(); }
 
-    /// Probability with which a way of this probability is followed, bounded below so that its weight does not overflow
-    /// and 24 random bits resolve it.
+    /// Probability with which a branch of this probability is followed, bounded below so that its weight does not
+    /// overflow and 24 random bits resolve it.
     static float chance(float probability) {
         return std::clamp(tuned<float>("walk.split_often") * probability, 0x1p-12f, 1.0f);
     }
 
-    /// Splits a path at its first surface, where path.scatter has been drawn: if the other way is open, the path takes
-    /// the likelier way with certainty, and the other one may also be followed.
+    /// Splits a path at its first surface, where path.scatter has been drawn: if the other branch is open, the path
+    /// takes the likelier one with certainty, and the other one may also be followed.
     template <class Path>
     void split(Path& path, bool strict_normals) {
         const auto& surface = *path.surface;
@@ -54,7 +54,7 @@ class GlassSplits {
     struct OtherBranch {
         std::uint16_t origin;  ///< index of its camera path
         Ray ray;
-        Rgb weight;    ///< f |cos| over the probability of following this way
+        Rgb weight;    ///< f |cos| over the probability of following this branch
         float spread;  ///< eta^2 if refracted, else 1
     };
     const OtherBranch& operator[](std::uint32_t i) const { return branches_[i]; }

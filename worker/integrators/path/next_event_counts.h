@@ -18,7 +18,7 @@ class NextEventCounts {
   public:
     NextEventCounts(TraceStats& stats, std::span<NextEventSums> regions) : stats_(stats), regions_(regions) {}
 
-    /// Whether a path is among those along which it is counted: a few samples of each pixel.
+    /// Whether a path's direct light is counted: true for a few samples of each pixel.
     static bool counts(const PathKey& key) {
         return key.sample % tuned<std::uint32_t>("next_event.counted_every") == 0;
     }

@@ -10,8 +10,8 @@ namespace treefarm {
 
 /// Tracer of the camera paths of a group: schedules them, and sums their samples. One kernel per thread.
 ///
-/// Other ways of paths that were split at glass, and split paths, wait until the camera paths of the whole group are
-/// done: they are few, and walk together. The paths split off by these follow in the next round.
+/// Other branches of paths that were split at glass, and split paths, wait until the camera paths of the whole group
+/// are done: they are few, and walk together. The paths split off by these follow in the next round.
 template <GuideWalk G, class Surface, bool kGuided, bool kRecord, class Observer = NoObserver>
 class PathKernel {
     using Walk = PathWalk<G, Surface, kGuided, kRecord, Observer>;
@@ -86,7 +86,7 @@ class PathKernel {
         return kGuided && !walk_.settings().next_event ? kBatch / 2 : kBatch;
     }
 
-    /// State with which splitting continues on the other way of a camera path.
+    /// State with which splitting continues on the other branch of a camera path.
     struct SplittingState {
         SplitBudget split_budget;
         int first_exponent;
@@ -141,7 +141,7 @@ class PathKernel {
             });
     }
 
-    /// Walks the other ways of paths that were split at their first surface.
+    /// Walks the other branches of paths that were split at their first surface.
     [[gnu::noinline]] void walk_other_branches() {
         const GlassSplits& glass_splits = walk_.glass_splits();
         walk(
@@ -164,7 +164,7 @@ class PathKernel {
             [&](std::uint32_t, const Path& path) {
                 Rgb& radiance = radiance_[path.origin];
                 if constexpr (kCompares) {
-                    // Both ways belong to one sample, whose square includes twice their product.
+                    // Both branches belong to one sample, whose square includes twice their product.
                     float& first = unsplit_[path.origin];
                     const float second = path.unsplit.of(luminance(path.radiance)) - luminance(radiance);
                     const float level = path.inverse_level;

@@ -45,7 +45,7 @@ class PathRecorder {
         outside_ = 0;
     }
 
-    /// Starts a record of the other way out of a path's first surface, by a delta lobe of this weight.
+    /// Starts a record of the other branch at a path's first surface, by a delta lobe of this weight.
     void begin_other_branch(const Rgb& weight) {
         begin_path();
         add_delta_vertex(weight, {}, 0);

@@ -16,7 +16,7 @@ namespace treefarm {
 template <class G, class Surface>
 struct PathState {
     PathKey key;
-    std::uint32_t vertex;  ///< keys the random numbers; split paths and other ways have ranges of their own
+    std::uint32_t vertex;  ///< keys the random numbers; split paths and other branches have ranges of their own
     int depth;             ///< edges so far
     Ray ray;
     Rgb radiance, throughput;
@@ -27,7 +27,7 @@ struct PathState {
     std::uint32_t scatter_region;    ///< of that vertex
     float inverse_level;             ///< one over the light about the pixel; 0: unknown
     float scatter_bsdf_pdf;          ///< density of the same direction without guiding; infinite after a delta lobe
-    UnguidedEstimate unguided;       ///< if PathSettings::twin is set
+    UnguidedEstimate unguided;       ///< if PathSettings::estimates_unguided is set
     LightReceiver scatter_from;      ///< the vertex that the ray left, as the choice of an emitter used it
     LightWidthStore scatter_widths;  ///< storage of scatter_from
     int first_exponent;              ///< of the quanta at the camera ray's hit: the scale of its brightness

@@ -68,7 +68,7 @@ class PathWalk {
             alive = ended_.replace(step(alive), alive_, follow);
     }
 
-    /// Ways out of glass and split paths that the traced paths left; the caller of walk() traces and removes them.
+    /// Branches at glass and split paths that the traced paths left; the caller of walk() traces and removes them.
     GlassSplits& glass_splits() { return glass_; }
     SplitPaths& split_paths() { return split_paths_; }
 

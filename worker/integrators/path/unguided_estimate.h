@@ -57,7 +57,7 @@ struct UnguidedTotal {
         moment += other.moment;
         cost += other.cost;
     }
-    /// Adds the other way out of glass; `product`: twice the product of both ways' luminances.
+    /// Adds the other branch at glass; `product`: twice the product of both branches' luminances.
     void add(const UnguidedEstimate& branch, float product) {
         moment += branch.moment() + product;
         cost += branch.cost();

@@ -22,7 +22,7 @@ struct PrincipledThinMaterial {
     }
     static constexpr KindEffect kEffect{"principled_thin", "thin principled material"};
     Lobes lobes() const { return {.diffuse = true, .glossy_reflection = true, .glossy_transmission = transmits()}; }
-    /// Opaque form: transmitted light and the reflection of such a sheet's facets are lost, and the base is darker by
+    /// Opaque form: transmitted light and the reflection of the facets are lost, and the base is darker by
     /// that share.
     PrincipledThinMaterial opaque() const {
         PrincipledThinMaterial material = *this;

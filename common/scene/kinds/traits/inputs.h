@@ -6,7 +6,7 @@
 
 namespace treefarm {
 
-/// A colour that is the same everywhere or looked up in a texture, and then multiplied by `value`.
+/// A colour: a constant `value`, or a texture times `value`.
 struct ColorInput {
     Rgb value{0.0f};
     std::int32_t texture = kNone;  ///< index in Scene::textures
@@ -17,8 +17,7 @@ struct ColorInput {
     bool operator==(const ColorInput&) const = default;
 };
 
-/// A number that is the same everywhere or looked up in a texture (its mean of channels), and then multiplied by
-/// `value`.
+/// A number: a constant `value`, or the mean of a texture's channels times `value`.
 struct FloatInput {
     float value = 0;
     std::int32_t texture = kNone;

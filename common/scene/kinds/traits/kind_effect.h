@@ -3,7 +3,7 @@
 
 namespace treefarm {
 
-/// The effect of a kind that is an effect of its own. It must be a row in the table of effects (common/plan/effects),
+/// The effect of a kind that is an effect of its own. It must be a row in the table of effects (common/config/effects),
 /// or compilation fails.
 struct KindEffect {
     const char* name;   ///< "bitmaps"
