@@ -29,8 +29,8 @@ Setting define_setting(const std::string& define) {
 std::string debug_command(const RenderOptions& options) {
     std::error_code error;  // absolute paths, so that the command works from any folder
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-    std::string text = shell_quoted(error ? "treefarm" : program.string()) + " render " +
-                       shell_quoted(std::filesystem::absolute(options.input).string());
+    std::string text = shell_quoted(error ? "treefarm" : program.string()) + " render ";
+    text += shell_quoted(std::filesystem::absolute(options.input, error).string());  // "" stays ""
     for (const std::string& argument : options.set)
         text += " --set " + shell_quoted(argument);
     for (const std::string& define : options.defines)

@@ -20,11 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Log quiet_log() {
-    return std::make_shared<spdlog::logger>("test");
-}
-
-const LocalWorker kWorker = [](Channel& own) { run_local_worker(own, 1, Fingerprint().hash(), quiet_log()); };
+const LocalWorker kWorker = [](Channel& own) {
+    run_local_worker(own, 1, Fingerprint().hash(), make_log("worker", {}, TellMessage()));
+};
 
 class Folders : public ::testing::Test {
   protected:
