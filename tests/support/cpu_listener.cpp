@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Linked into every test program: where TREEFARM_CPU_FILE names a file, each test appends its CPU seconds to it, those of
-// the processes that it waited for included ("program suite.name seconds"). deploy/test holds them against a budget.
+// Linked into every test program: where TREEFARM_CPU_FILE names a file, each test appends its CPU seconds to it, those
+// of the processes that it waited for included ("program suite.name seconds"). deploy/test holds them against a budget.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -269,7 +269,7 @@ TEST_F(TcpChannelTest, AGuestThatTakesNothingInIsGivenUp) {
     listener_->drained();
     EXPECT_FALSE(listener_->is_open(kFirst));
     ASSERT_EQ(warnings_.size(), 1u);
-    EXPECT_NE(warnings_[0].find("takes in less"), std::string::npos);
+    EXPECT_NE(warnings_[0].find("receives more slowly"), std::string::npos);
 }
 
 TEST_F(TcpChannelTest, UnknownConnectionsFillNoLog) {

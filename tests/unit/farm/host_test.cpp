@@ -54,7 +54,7 @@ TEST(MemoryCheck, SumsOverTheProcessesOfAHost) {
     EXPECT_NE(here.find("farm.memory_check=false"), std::string::npos) << here;
     const std::string there = refusal(each, own, {hello("b", 5 * kGigabyte), hello("b", 6 * kGigabyte)});
     EXPECT_NE(there.find("on b, by 2 workers"), std::string::npos) << there;
-    EXPECT_NE(there.find("5 GB can be had"), std::string::npos) << there;
+    EXPECT_NE(there.find("5 GB are available"), std::string::npos) << there;
 }
 
 TEST(MemoryCheck, HoldsNothingUnknownAgainstAnybody) {

@@ -45,7 +45,7 @@ TEST_F(LoneTasks, OfAnotherMpiAreRefused) {
     expect_refused("PMI_SIZE=4", "PMI_RANK", "mpirun -n 4 treefarm");
     const test::Ended study = test::run_command("env PMI_SIZE=4 PMI_RANK=0 '" TREEFARM_PROGRAM "' study nothing.toml");
     EXPECT_EQ(study.code, 2);
-    EXPECT_NE(study.output.find("started 4 tasks"), std::string::npos) << study.output;
+    EXPECT_NE(study.output.find("started 4 unconnected tasks"), std::string::npos) << study.output;
 }
 
 /// One task, a batch script, a shell of salloc.
