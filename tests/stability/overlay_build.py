@@ -15,6 +15,9 @@ class Build:
         self.folder = folder
         self.units = {}
         for unit in json.loads((folder / "compile_commands.json").read_text()):
+            if "/Unity/unity_" in unit["file"]:
+                raise SystemExit(f"{folder} compiles several files as one; build the preset by-file instead: "
+                                 "cmake --preset by-file && cmake --build --preset by-file")
             self.units[str(pathlib.Path(unit["file"]).resolve().relative_to(ROOT))] = unit["command"]
 
     def compile(self, unit, overlay, output):
@@ -25,11 +28,11 @@ class Build:
         return subprocess.run(f"{first} -I{overlay} {rest} -o {output} -c {source}", shell=True, cwd=self.folder,
                               capture_output=True, text=True)
 
-    def link_test(self, program, objects, output):
-        """A test program with these objects in place of its own and before those of libraries."""
-        command = self.link_command(f"tests/{program}")
-        command = re.sub(r"\S+/" + program.removeprefix("stability_") + r"\.cpp\.o", " ".join(map(str, objects)), command)
-        command = re.sub(rf"-o tests/{program}\b", f"-o {output}", command)
+    def link_test(self, name, objects, output):
+        """The program of tests/stability with these objects in place of that of NAME.cpp and before those of libraries."""
+        command = self.link_command("tests/stability_test")
+        command = re.sub(rf"\S+/{name}\.cpp\.o", " ".join(map(str, objects)), command)
+        command = re.sub(r"-o tests/stability_test\b", f"-o {output}", command)
         return subprocess.run(command, shell=True, cwd=self.folder, capture_output=True, text=True)
 
     def link_program(self, target, objects, output):

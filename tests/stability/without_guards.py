@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Shows that the tests of tests/stability can fail: removes each guard of guards.json in turn and runs its test.
 
-usage: tests/stability/without_guards.py [BUILD] [TEST...]     e.g. build/release Weights.OfHugeAndInfiniteDensities
+usage: tests/stability/without_guards.py [BUILD] [TEST...]     e.g. build/by-file Weights.OfHugeAndInfiniteDensities
 
-BUILD (default build/release, a Ninja build) must be up to date. No source is touched: changed copies stand before the
+BUILD (default build/by-file, of the preset by-file) must be up to date. No source is touched: changed copies stand before the
 sources on the include path, and only the test itself and the units that a guard names are compiled with them.
 """
 import json
@@ -21,7 +21,6 @@ def outcome_of(build, guard, overlay):
         return f"IS STALE: {stale} has no such text"
     if all(edit["file"].endswith(".cmake") for edit in guard["edits"]):
         return "is not run here"
-    program = "stability_" + guard["program"]
     test_unit = f"tests/stability/{guard['program']}.cpp"
     changed = [edit["file"] for edit in guard["edits"] if edit["file"].endswith(".cpp")]
     objects = []
@@ -30,7 +29,7 @@ def outcome_of(build, guard, overlay):
         compiled = build.compile(unit, overlay, objects[-1])
         if compiled.returncode != 0:
             return "DOES NOT COMPILE: " + compiled.stderr[:300]
-    linked = build.link_test(program, objects, overlay / "test")
+    linked = build.link_test(guard["program"], objects, overlay / "test")
     if linked.returncode != 0:
         return "DOES NOT LINK: " + linked.stderr[-300:]
     test = guard["test"]
@@ -43,7 +42,7 @@ def outcome_of(build, guard, overlay):
 
 def main():
     arguments = sys.argv[1:]
-    folder = pathlib.Path(arguments.pop(0) if arguments and "/" in arguments[0] else ROOT / "build/release").resolve()
+    folder = pathlib.Path(arguments.pop(0) if arguments and "/" in arguments[0] else ROOT / "build/by-file").resolve()
     build = Build(folder)
     wrong = 0
     for guard in json.loads((ROOT / "tests/stability/guards.json").read_text()):
