@@ -15,8 +15,8 @@ namespace {
 constexpr double kFiner = 0x1p-20;
 /// Quanta in the value that splat_exponent() expects.
 constexpr double kOfExponent = 0x1p10;
-/// Least squared distance of a lamp from the lens, relative to the scene's. Nearer distances than the scene's count only
-/// if the light is then more than kAlike times as bright.
+/// Least squared distance of a lamp from the lens, relative to the scene's. Nearer distances than the scene's count
+/// only if the light is then more than kAlike times as bright.
 constexpr double kNearest = 0x1p-16, kAlike = 16.0;
 
 /// Camera importance at the middle of the film, per area facing the camera at this distance.
