@@ -47,7 +47,7 @@ class RunDirectory {
     std::filesystem::path log_file() const { return path() / kLogFile; }
     std::size_t passes() const { return passes_.size(); }  ///< number of finished passes
 
-    /// Writes the files known before the render. If a run is resumed, they replace its files, so call this only once the
+    /// Writes the files known before the render. They replace those of a resumed run, so call this only once the
     /// render continues. Throws as the constructor.
     void write_request();
 
