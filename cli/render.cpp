@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "cli/commands.h"
 #include "cli/debug_sample.h"
 #include "cli/exit_code.h"
 #include "cli/observer.h"

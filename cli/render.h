@@ -5,14 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/launch_environment.h"
 #include "cli/on_farm.h"
 #include "coordinator/render/read_request.h"
 #include "coordinator/render/render.h"
-
-namespace CLI {
-class App;
-}
 
 namespace treefarm {
 
@@ -35,11 +30,6 @@ struct RenderOptions {
     std::string debug_sample;  ///< "pass,x,y,sample"
     std::string command;       ///< as it was typed
 };
-
-/// Registers the subcommand. Its callback runs the render and stores the exit code; InputError and RunError leave
-/// CLI::App::parse, after the job's other processes were dismissed.
-void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const std::string& command_line,
-                        int& exit_code);
 
 /// Callback that lets a request resume from the content of its folder. Returns the outcome if the result exists
 /// already.

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/study.h"
-
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
+#include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/observer.h"
 #include "cli/option_values.h"
