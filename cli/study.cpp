@@ -9,7 +9,7 @@
 #include "cli/option_values.h"
 #include "cli/this_build.h"
 #include "common/runs/run_files.h"
-#include "coordinator/render/input_kind.h"
+#include "coordinator/render/read_request.h"
 #include "coordinator/study/study_run.h"
 #include "report/figure_export.h"
 #include "report/price_list.h"
