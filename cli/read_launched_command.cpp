@@ -5,7 +5,6 @@
 
 #include "cli/commands.h"
 #include "cli/render.h"
-#include "cli/render_shot.h"
 #include "cli/usage.h"
 #include "common/base/refuse.h"
 #include "common/config/job_reader.h"

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "cli/on_farm.h"
+#include "common/base/log.h"
 #include "coordinator/render/read_request.h"
 #include "coordinator/render/render.h"
+#include "coordinator/render/render_request.h"
 
 namespace treefarm {
 
@@ -48,5 +50,18 @@ RenderOrigin render_origin(const RenderOptions& options);
 
 /// Reads a request, and sets its storage. Throws InputError.
 RenderRequest read_request(const RenderOptions& options);
+
+/// Traces the sample or tile `name`, after rendering the passes before its own, which teach the model that guides it
+/// (except for those in the request's checkpoint). For a sample, "pass,x,y,sample", prints the path vertex by vertex on
+/// standard output; for a tile, "pass,x0,y0,x1,y1,chunk", traces the work unit in this process and thread, for a
+/// debugger, and prints its statistics. `tell`: receives error messages. Throws InputError if there is no such sample
+/// or tile.
+void debug_sample(const RenderRequest& request, const std::string& name, const TellMessage& tell);
+
+/// Folder of a shot.
+std::filesystem::path shot_directory(const RenderOptions& options);
+
+/// treefarm render --frames: renders every frame of a shot over all processes. Returns the exit code.
+int render_shot(const LaunchEnvironment& launch, const RenderOptions& options);
 
 }  // namespace treefarm
