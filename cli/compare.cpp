@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "cli/commands.h"
 #include "cli/compare_output.h"
 #include "cli/option_values.h"
 #include "common/base/error.h"

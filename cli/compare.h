@@ -5,12 +5,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "cli/launch_environment.h"
 #include "common/metrics/flip/kernels.h"
-
-namespace CLI {
-class App;
-}
 
 namespace treefarm {
 
@@ -33,9 +28,5 @@ struct CompareOptions {
 /// Prints the comparison to `out` and returns 0, whatever the result. Throws InputError for images that cannot be read
 /// or compared, RunError if a picture cannot be written.
 int run_compare(const CompareOptions& options, std::ostream& out);
-
-/// Registers the subcommand. Its callback calls run_compare with standard output and stores the exit code; InputError
-/// and RunError leave CLI::App::parse.
-void add_compare_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_code);
 
 }  // namespace treefarm

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/commands.h"
 #include "cli/option_values.h"
 #include "cli/picture_of_layer.h"
 #include "common/base/error.h"

@@ -4,12 +4,6 @@
 #include <iosfwd>
 #include <string>
 
-#include "cli/launch_environment.h"
-
-namespace CLI {
-class App;
-}
-
 namespace treefarm {
 
 /// Options of treefarm convert IMAGE.exr OUT.png
@@ -23,8 +17,5 @@ struct ConvertOptions {
 /// Writes one layer of an EXR image as a PNG for viewing, or as an EXR or PFM file. Throws InputError for unreadable
 /// files and invalid options, RunError if the file cannot be written.
 void run_convert(const ConvertOptions& options, std::ostream& out);
-
-/// Registers the subcommand.
-void add_convert_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_code);
 
 }  // namespace treefarm

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/debug_sample.h"
-
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
 
+#include "cli/render.h"
 #include "common/scene/pack/scene_codec.h"
 #include "coordinator/render/passes_alone.h"
 #include "worker/registry.h"

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/inspect.h"
-
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
 #include <memory>
 #include <sstream>
 
+#include "cli/commands.h"
 #include "cli/inspect_output.h"
 #include "cli/option_values.h"
 #include "common/base/files/atomic_file.h"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/join.h"
-
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,6 +13,7 @@
 #include <memory>
 #include <thread>
 
+#include "cli/commands.h"
 #include "cli/on_farm.h"
 #include "cli/option_values.h"
 #include "cli/this_build.h"

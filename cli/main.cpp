@@ -8,20 +8,9 @@
 #include <thread>
 #include <vector>
 
-#include "cli/check.h"
-#include "cli/compare.h"
-#include "cli/convert.h"
-#include "cli/inspect.h"
-#include "cli/join.h"
-#include "cli/keys.h"
+#include "cli/commands.h"
 #include "cli/launch_environment.h"
 #include "cli/option_values.h"
-#include "cli/plan.h"
-#include "cli/render.h"
-#include "cli/resume.h"
-#include "cli/serve.h"
-#include "cli/study.h"
-#include "cli/supervise.h"
 #include "cli/this_build.h"
 #include "cli/usage.h"
 #include "common/base/error.h"

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/option_advice.h"
-
 #include <algorithm>
 #include <string_view>
 #include <vector>
 
+#include "cli/usage.h"
 #include "common/config/job_keys.h"
 
 namespace treefarm {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/plan.h"
-
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <memory>
 
+#include "cli/commands.h"
 #include "cli/option_values.h"
 #include "cli/plan_answer.h"
 #include "cli/render.h"

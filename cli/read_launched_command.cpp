@@ -3,10 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/commands.h"
 #include "cli/render.h"
-#include "cli/render_shot.h"
-#include "cli/resume.h"
-#include "cli/study.h"
 #include "cli/usage.h"
 #include "common/base/refuse.h"
 #include "common/config/job_reader.h"

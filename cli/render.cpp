@@ -4,11 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "cli/debug_sample.h"
+#include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/observer.h"
 #include "cli/option_values.h"
-#include "cli/render_shot.h"
 #include "coordinator/render/render_series.h"
 #include "coordinator/render/resume.h"
 #include "coordinator/run/folder_content.h"

@@ -5,14 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "cli/launch_environment.h"
 #include "cli/on_farm.h"
+#include "common/base/log.h"
 #include "coordinator/render/read_request.h"
 #include "coordinator/render/render.h"
-
-namespace CLI {
-class App;
-}
+#include "coordinator/render/render_request.h"
 
 namespace treefarm {
 
@@ -36,11 +33,6 @@ struct RenderOptions {
     std::string command;       ///< as it was typed
 };
 
-/// Registers the subcommand. Its callback runs the render and stores the exit code; InputError and RunError leave
-/// CLI::App::parse, after the job's other processes were dismissed.
-void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const std::string& command_line,
-                        int& exit_code);
-
 /// Callback that lets a request resume from the content of its folder. Returns the outcome if the result exists
 /// already.
 using GoOn = std::function<std::optional<RenderOutcome>(RenderRequest&)>;
@@ -58,5 +50,18 @@ RenderOrigin render_origin(const RenderOptions& options);
 
 /// Reads a request, and sets its storage. Throws InputError.
 RenderRequest read_request(const RenderOptions& options);
+
+/// Traces the sample or tile `name`, after rendering the passes before its own, which teach the model that guides it
+/// (except for those in the request's checkpoint). For a sample, "pass,x,y,sample", prints the path vertex by vertex on
+/// standard output; for a tile, "pass,x0,y0,x1,y1,chunk", traces the work unit in this process and thread, for a
+/// debugger, and prints its statistics. `tell`: receives error messages. Throws InputError if there is no such sample
+/// or tile.
+void debug_sample(const RenderRequest& request, const std::string& name, const TellMessage& tell);
+
+/// Folder of a shot.
+std::filesystem::path shot_directory(const RenderOptions& options);
+
+/// treefarm render --frames: renders every frame of a shot over all processes. Returns the exit code.
+int render_shot(const LaunchEnvironment& launch, const RenderOptions& options);
 
 }  // namespace treefarm

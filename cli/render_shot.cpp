@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/render_shot.h"
-
 #include <algorithm>
 
 #include "cli/exit_code.h"

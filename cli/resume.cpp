@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/resume.h"
+#include "coordinator/render/resume.h"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 
+#include "cli/commands.h"
 #include "cli/option_values.h"
 #include "cli/render.h"
 #include "common/runs/run_files.h"
-#include "coordinator/render/resume.h"
 
 namespace treefarm {
 

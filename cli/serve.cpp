@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/serve.h"
-
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
@@ -8,6 +6,7 @@
 #include <memory>
 #include <thread>
 
+#include "cli/commands.h"
 #include "cli/option_values.h"
 #include "common/base/host.h"
 #include "common/base/interrupt.h"

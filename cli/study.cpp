@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/study.h"
-
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
+#include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/observer.h"
 #include "cli/option_values.h"
 #include "cli/this_build.h"
 #include "common/runs/run_files.h"
-#include "coordinator/render/input_kind.h"
+#include "coordinator/render/read_request.h"
 #include "coordinator/study/study_run.h"
 #include "report/figure_export.h"
 #include "report/price_list.h"

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/supervise.h"
-
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
+#include "cli/commands.h"
 #include "cli/option_values.h"
 #include "cli/read_launched_command.h"
 #include "common/base/error.h"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "cli/option_advice.h"
 #include "common/base/text/parse_text.h"
 
 namespace treefarm {

@@ -17,4 +17,8 @@ std::string malformed_argument(std::span<const std::string> arguments);
 /// Message about arguments that the parser refused with this error.
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error, std::span<const std::string> arguments);
 
+/// Advice for an option that other renderers have, and this one lacks or has as a job key: "--frames" -> "start one
+/// render for each frame ...". "" if there is none.
+std::string option_advice(const std::string& option, const std::string& command);
+
 }  // namespace treefarm

@@ -9,14 +9,8 @@
 #include "common/config/estimators.h"
 #include "common/plan/resolve/resolve.h"
 #include "common/scene/pack/scene_codec.h"
-#include "worker/integrators/ao/ao_integrator.h"
-#include "worker/integrators/bidirectional/bidirectional_integrator.h"
-#include "worker/integrators/direct/direct_integrator.h"
 #include "worker/integrators/first_hit/first_hit.h"
-#include "worker/integrators/light/light_integrator.h"
-#include "worker/integrators/normals/normals_integrator.h"
-#include "worker/integrators/path/path_integrator.h"
-#include "worker/integrators/reference/reference_integrator.h"
+#include "worker/integrators/integrators.h"
 
 namespace treefarm {
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/render/initial_model.h"
-
 #include <algorithm>
 #include <filesystem>
 
@@ -10,6 +8,7 @@
 #include "common/plan/resolve/resolved_file.h"
 #include "common/plan/schedule/schedule_file.h"
 #include "common/runs/run_files.h"
+#include "coordinator/render/read_request.h"
 #include "coordinator/render/stored_model.h"
 
 namespace treefarm {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/render/input_kind.h"
-
 #include <filesystem>
 
 #include "common/base/refuse.h"
 #include "common/base/text/parse_text.h"
 #include "common/runs/run_files.h"
 #include "coordinator/input/foreign_format.h"
+#include "coordinator/render/read_request.h"
 
 namespace treefarm {
 

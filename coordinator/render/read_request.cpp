@@ -13,8 +13,6 @@
 #include "common/plan/resolve/resolved_file.h"
 #include "common/plan/schedule/schedule_file.h"
 #include "common/scene/pack/scene_codec.h"
-#include "coordinator/render/initial_model.h"
-#include "coordinator/render/input_kind.h"
 
 namespace treefarm {
 

@@ -40,4 +40,16 @@ Job merged_job(const LoadedScene& loaded, std::initializer_list<std::span<const 
 /// Adds the messages of the scene's reader.
 void take_warnings(const LoadedScene& loaded, RenderContent& content);
 
+/// Reads the model that guiding.initial_model of the request's job names, and adds its hash and number of samples to
+/// the job. A render that gave guiding up has none: the job then begins without a model, with a warning. Throws
+/// InputError if it is no run directory, or the model is another guide's, or not the one of the job's hash.
+void read_initial_model(RenderRequest& request);
+
+/// Throws InputError, with advice, if the input of render, plan or debug is neither a Mitsuba scene nor a job: a run
+/// directory has a job.toml, a study's folder a report.
+void require_scene_or_job(const std::string& input);
+
+/// Throws InputError if the input of study is no study file by its name.
+void require_study_file(const std::string& input);
+
 }  // namespace treefarm

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/study/study_folder.h"
-
 #include "common/base/text/printable.h"
 #include "common/runs/run_json.h"
 #include "coordinator/run/folder_content.h"
+#include "coordinator/study/study_rules.h"
 
 namespace treefarm {
 

@@ -16,7 +16,7 @@
 #include "coordinator/study/cell_record.h"
 #include "coordinator/study/cell_request.h"
 #include "coordinator/study/reference.h"
-#include "coordinator/study/study_folder.h"
+#include "coordinator/study/study_rules.h"
 #include "coordinator/words/pass_text.h"
 #include "coordinator/words/reading_notice.h"
 #include "coordinator/words/series_progress.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/base/error.h"
-#include "coordinator/input/mitsuba/spectrum_file.h"
+#include "coordinator/input/mitsuba/colors.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/memory_file.h"
 

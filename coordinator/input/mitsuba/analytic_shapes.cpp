@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/input/mitsuba/analytic_shapes.h"
-
 #include <cmath>
+
+#include "coordinator/input/mitsuba/shapes.h"
 
 namespace treefarm::mitsuba {
 namespace {

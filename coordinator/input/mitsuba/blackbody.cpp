@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/input/mitsuba/blackbody.h"
-
 #include <cmath>
 
 #include "common/base/text/parse_text.h"
+#include "coordinator/input/mitsuba/colors.h"
 #include "coordinator/input/mitsuba/values.h"
 
 namespace treefarm::mitsuba {

@@ -6,8 +6,6 @@
 #include <optional>
 
 #include "common/base/text/parse_text.h"
-#include "coordinator/input/mitsuba/blackbody.h"
-#include "coordinator/input/mitsuba/spectrum_file.h"
 #include "coordinator/input/mitsuba/values.h"
 
 namespace treefarm::mitsuba {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
+
+#include "common/base/error.h"
 #include "common/math/vec.h"
 #include "coordinator/input/colour/spectra.h"
 #include "coordinator/input/mitsuba/diagnostics.h"
@@ -29,5 +32,16 @@ Rgb checked_color(Imath::Color3<double> color, bool of_list, bool is_old, ColorU
 
 /// Colour of an <rgb>, <srgb>, <spectrum> (value or file) or <blackbody> element, not negative.
 Rgb read_color(const XmlElement& element, ColorUse use, Diagnostics& diagnostics);
+
+/// Colour of a black body (Planck's law), linear Rec. 709, W / (m^2 sr nm) as in Mitsuba 0.6; channels can be negative.
+/// `temperature`: kelvin, above 0 and at most 1e6, otherwise InputError at `where`.
+Imath::Color3<double> blackbody_color(double temperature, const Location& where);
+
+/// Colour of <blackbody name="..." temperature="5000K" scale="1"/>. Wrong attributes and temperatures throw InputError.
+Imath::Color3<double> read_blackbody(const XmlElement& element);
+
+/// Spectrum from a file of "wavelength value" per line, with # before comments (.spd). Throws InputError if the file is
+/// missing, has more than 100,000 lines, a malformed line, wavelengths that do not increase, or fewer than two.
+SpectrumSamples read_spectrum_file(const std::filesystem::path& path, const Location& asked_from);
 
 }  // namespace treefarm::mitsuba

@@ -8,7 +8,6 @@
 
 #include "common/base/text/parse_text.h"
 #include "coordinator/input/mitsuba/field_of_view.h"
-#include "coordinator/input/mitsuba/sky_emitters.h"
 
 namespace treefarm::mitsuba {
 namespace {

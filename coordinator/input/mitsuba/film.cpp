@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/input/mitsuba/film.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "common/base/text/parse_text.h"
 #include "coordinator/input/mitsuba/integrator_settings.h"
+#include "coordinator/input/mitsuba/sensor.h"
 
 namespace treefarm::mitsuba {
 namespace {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/input/mitsuba/guided_path.h"
-
 #include <cmath>
 
 #include "common/base/text/parse_text.h"
+#include "coordinator/input/mitsuba/integrator_settings.h"
 
 namespace treefarm::mitsuba {
 namespace {

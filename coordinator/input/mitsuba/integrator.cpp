@@ -5,7 +5,6 @@
 #include <array>
 
 #include "common/base/text/parse_text.h"
-#include "coordinator/input/mitsuba/guided_path.h"
 #include "coordinator/input/mitsuba/integrator_settings.h"
 
 namespace treefarm::mitsuba {

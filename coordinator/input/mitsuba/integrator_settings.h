@@ -47,4 +47,8 @@ class IntegratorSettings {
     Diagnostics& diagnostics_;
 };
 
+/// Turns <integrator type="guided_path"> (the plugin of Mueller et al., 2017 to 2019) into settings of the job: the
+/// preset paper, overridden by the element's properties.
+void read_guided_path(IntegratorSettings& settings);
+
 }  // namespace treefarm::mitsuba

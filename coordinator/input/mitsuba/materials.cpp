@@ -2,7 +2,6 @@
 #include "coordinator/input/mitsuba/materials.h"
 
 #include "common/base/text/parse_text.h"
-#include "coordinator/input/mitsuba/surface_bsdfs.h"
 #include "coordinator/input/mitsuba/values.h"
 
 namespace treefarm::mitsuba {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/input/mitsuba/mtl_bsdf.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "common/base/text/parse_text.h"
 #include "coordinator/input/mitsuba/file_search.h"
+#include "coordinator/input/mitsuba/obj_materials.h"
 
 namespace treefarm::mitsuba {
 namespace {

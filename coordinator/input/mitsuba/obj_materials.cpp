@@ -6,7 +6,6 @@
 
 #include "common/base/text/parse_text.h"
 #include "coordinator/input/mitsuba/file_search.h"
-#include "coordinator/input/mitsuba/mtl_bsdf.h"
 
 namespace treefarm::mitsuba {
 namespace {

@@ -3,8 +3,10 @@
 
 #include <vector>
 
+#include "coordinator/input/meshes/mtl_file.h"
 #include "coordinator/input/meshes/obj_file.h"
 #include "coordinator/input/mitsuba/materials.h"
+#include "coordinator/input/mitsuba/xml_document.h"
 
 namespace treefarm::mitsuba {
 
@@ -25,5 +27,9 @@ std::vector<ObjMaterial> assign_obj_materials(const ObjFile& obj, const std::fil
 /// BSDF of a shape with one material, or nullptr. A second BSDF throws InputError or, in a file of version 0, replaces
 /// the first.
 const XmlElement* bsdf_of(Properties& properties, Diagnostics& diagnostics);
+
+/// BSDF for a material of an MTL file, whose maps are in `folder`: diffuse; if Ks is not black, blended with a rough
+/// mirror of alpha = sqrt(2 / (Ns + 2)); twosided. The reflectance is Kd plus Ks, scaled down to 1 if it exceeds that.
+XmlElement bsdf_of_mtl(const MtlMaterial& material, const std::filesystem::path& folder);
 
 }  // namespace treefarm::mitsuba

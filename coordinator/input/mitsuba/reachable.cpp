@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/input/mitsuba/reachable.h"
-
 #include <algorithm>
 #include <array>
 
 #include "coordinator/input/mitsuba/properties.h"
+#include "coordinator/input/mitsuba/scene_document.h"
 
 namespace treefarm::mitsuba {
 namespace {

@@ -7,8 +7,8 @@
 #include "coordinator/input/mitsuba/emitters.h"
 #include "coordinator/input/mitsuba/integrator.h"
 #include "coordinator/input/mitsuba/materials.h"
-#include "coordinator/input/mitsuba/reachable.h"
-#include "coordinator/input/mitsuba/sensor_choice.h"
+#include "coordinator/input/mitsuba/scene_document.h"
+#include "coordinator/input/mitsuba/sensor.h"
 #include "coordinator/input/mitsuba/shape_reader.h"
 
 namespace treefarm {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -42,5 +43,12 @@ class SceneDocument {
     std::unique_ptr<XmlElement> root_;
     std::map<std::string, const XmlElement*> objects_;
 };
+
+/// Whether an element only defines an object for references: at a scene's top level it has no effect.
+bool is_definition(const XmlElement& element);
+
+/// Objects that the scene consists of: those at its top level that are no definitions, and all that they refer to,
+/// directly or indirectly. The others do not influence the image.
+std::set<const XmlElement*> reachable_objects(const SceneDocument& document);
 
 }  // namespace treefarm::mitsuba

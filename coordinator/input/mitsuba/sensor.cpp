@@ -7,7 +7,6 @@
 
 #include "common/base/text/parse_text.h"
 #include "coordinator/input/mitsuba/field_of_view.h"
-#include "coordinator/input/mitsuba/film.h"
 
 namespace treefarm::mitsuba {
 namespace {

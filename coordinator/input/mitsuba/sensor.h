@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "common/config/setting.h"
@@ -24,5 +25,16 @@ void read_sensor(const XmlElement& sensor, const FilmSize& wanted, Scene& scene,
 /// film.
 Camera make_camera(const Matrix& to_world, double horizontal_fov, double aspect, double principal_x,
                    double principal_y);
+
+/// Reads <film type="hdrfilm">; without an element the film has 768 x 576 pixels; without a filter, a Gaussian of 0.5
+/// pixels, as in Mitsuba. `wanted` replaces the size where it is not 0, and a crop window keeps its share of it.
+/// `version` is the sensor's. A pixel format with alpha becomes a setting.
+Film read_film(const XmlElement* film, const FilmSize& wanted, int version, std::vector<Setting>& settings,
+               const SceneDocument& document, Diagnostics& diagnostics);
+
+/// The sensor to render: the one with the id `wanted`, or with this number among all, from 0 on. If `wanted` is empty,
+/// the first, or in files of version 0.x the last, as in Mitsuba, with a note if there are more. Throws InputError if
+/// there is none.
+const XmlElement& choose_sensor(Properties& scene, const std::string& wanted, Diagnostics& diagnostics);
 
 }  // namespace treefarm::mitsuba

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/input/mitsuba/sensor_choice.h"
-
 #include "common/base/text/parse_text.h"
+#include "coordinator/input/mitsuba/sensor.h"
 
 namespace treefarm::mitsuba {
 namespace {

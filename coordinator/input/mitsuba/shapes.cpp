@@ -5,7 +5,6 @@
 
 #include "common/base/text/parse_text.h"
 #include "coordinator/input/meshes/mesh_normals.h"
-#include "coordinator/input/mitsuba/analytic_shapes.h"
 #include "coordinator/input/mitsuba/mesh_files.h"
 
 namespace treefarm::mitsuba {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/input/mitsuba/sky_emitters.h"
-
 #include <cmath>
 
 #include "common/base/text/parse_text.h"

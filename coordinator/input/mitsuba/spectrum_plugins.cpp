@@ -2,7 +2,7 @@
 #include "coordinator/input/mitsuba/spectrum_plugins.h"
 
 #include "common/base/text/parse_text.h"
-#include "coordinator/input/mitsuba/blackbody.h"
+#include "coordinator/input/mitsuba/colors.h"
 #include "coordinator/input/mitsuba/values.h"
 
 namespace treefarm::mitsuba {

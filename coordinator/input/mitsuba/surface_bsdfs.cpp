@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/input/mitsuba/surface_bsdfs.h"
-
 #include "common/base/text/parse_text.h"
 #include "coordinator/input/colour/metals.h"
 #include "coordinator/input/colour/scattering_media.h"
+#include "coordinator/input/mitsuba/materials.h"
 #include "coordinator/input/mitsuba/refractive_index.h"
 
 namespace treefarm::mitsuba {

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "common/image/exr.h"
-#include "coordinator/input/mitsuba/blackbody.h"
+#include "coordinator/input/mitsuba/colors.h"
 #include "tests/support/mitsuba_fixture.h"
 #include "tests/support/refusal.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Objects of Mitsuba 2 and 3 that stand for spectra: <spectrum type="...">.
-#include "coordinator/input/mitsuba/blackbody.h"
+#include "coordinator/input/mitsuba/colors.h"
 #include "tests/support/mitsuba_fixture.h"
 
 namespace treefarm {

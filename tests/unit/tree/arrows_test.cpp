@@ -240,7 +240,7 @@ TEST(Arrows, TheRulesLetThroughWhatIsAllowed) {
         {"common/film/combine.cpp", "#include \"common/film/combine.h\""},
         {"worker/integrators/sample_loop.cpp", "#include \"worker/geometry/device.h\""},
         {"worker/integrators/light/walk.h", "#include \"worker/integrators/subpath/mis.h\""},
-        {"worker/registry.cpp", "#include \"worker/integrators/path/path_integrator.h\""},
+        {"worker/registry.cpp", "#include \"worker/integrators/first_hit/first_hit.h\""},
         {"worker/worker.cpp", "#include \"common/comm/channel.h\""},
         {"worker/guides/sd_tree_walk.h", "#include \"common/guiding/sd_tree/sd_tree_sampler.h\""},
         {"worker/guides/sd_tree_walk.h", "#include \"worker/integrators/path/path_walk.h\""},

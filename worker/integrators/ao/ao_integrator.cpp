@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "worker/integrators/ao/ao_integrator.h"
-
 #include "common/math/frame.h"
+#include "worker/integrators/integrators.h"
 #include "worker/integrators/sample_loop.h"
 
 namespace treefarm {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "worker/integrators/bidirectional/bidirectional_integrator.h"
-
 #include "worker/integrators/bidirectional/bidirectional_tracer.h"
+#include "worker/integrators/integrators.h"
 #include "worker/integrators/sample_loop.h"
 
 // A path of k edges from lamp to lens has k + 1 vertices. A technique (s, t) draws s of them from the lamp and t from

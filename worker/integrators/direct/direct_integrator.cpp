@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "worker/integrators/direct/direct_integrator.h"
-
 #include <limits>
 
+#include "worker/integrators/integrators.h"
 #include "worker/integrators/sample_loop.h"
 #include "worker/integrators/subpath/mis.h"
 #include "worker/integrators/subpath/surface_light.h"

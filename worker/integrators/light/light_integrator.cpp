@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "worker/integrators/light/light_integrator.h"
-
 #include <array>
 
 #include "common/base/timer.h"
+#include "worker/integrators/integrators.h"
 #include "worker/integrators/subpath/emission_record.h"
 #include "worker/integrators/subpath/light_scatter.h"
 #include "worker/integrators/subpath/roulette.h"

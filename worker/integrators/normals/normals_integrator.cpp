@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "worker/integrators/normals/normals_integrator.h"
-
+#include "worker/integrators/integrators.h"
 #include "worker/integrators/sample_loop.h"
 
 namespace treefarm {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "worker/integrators/path/path_integrator.h"
-
 #include "common/base/error.h"
 #include "common/plan/schedule/kernel.h"
 #include "common/plan/schedule/learning.h"
+#include "worker/integrators/integrators.h"
 #include "worker/integrators/path/tile_renderer.h"
 
 namespace treefarm {
