@@ -126,7 +126,7 @@ TEST(Join, WhoeverMayNotIsToldWhatToDoAndDisturbsNobody) {
     ticket = read_ticket(folder / kTicketFileName);
     ticket.run[5] ^= 1;
     write_ticket(copy, ticket);
-    refused({"--file", copy.string()}, "another run answers there");
+    refused({"--file", copy.string()}, "another run uses this address");
     fs::permissions(copy, fs::perms::others_read, fs::perm_options::add);
     refused({"--file", copy.string()}, "can be read by other users");
     refused({"--file", copy.string(), folder.string()}, "is given beside a run directory");
