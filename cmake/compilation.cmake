@@ -10,6 +10,7 @@
 #   what is generated. -DTREEFARM_UNITY=OFF compiles each by itself, as editors and clang-tidy want it (preset tidy).
 option(TREEFARM_UNITY "compile files of modules that do not trace several at a time" ON)
 set(TREEFARM_UNITY_FILES 6)
+set(TREEFARM_COLD_LEVEL "" CACHE STRING "level of cold files; empty: -O2, and -O1 for tests, in a release build by g++")
 
 # Modules whose speed matters stay as they are. The others, and every test, are cold.
 set(TREEFARM_HOT base film guiding image metrics textures geometry shading lights camera trace_scene integrators tools worker)
@@ -45,9 +46,9 @@ endfunction()
 
 # Call once every target is there.
 function(treefarm_compile_all)
-    set(program_level)
-    set(test_level)
-    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TYPE STREQUAL "Release")
+    set(program_level ${TREEFARM_COLD_LEVEL})
+    set(test_level ${TREEFARM_COLD_LEVEL})
+    if(NOT TREEFARM_COLD_LEVEL AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TYPE STREQUAL "Release")
         set(program_level -O2)
         set(test_level -O1)
     endif()

@@ -24,7 +24,8 @@ if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
 endif()
 
-set(CMAKE_CXX_FLAGS_RELEASE "-O3")
+set(TREEFARM_LEVEL "-O3" CACHE STRING "level of release builds, but for cold files (cmake/compilation.cmake)")
+set(CMAKE_CXX_FLAGS_RELEASE "${TREEFARM_LEVEL}")
 set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g -D_GLIBCXX_ASSERTIONS")
 
 add_library(treefarm_flags INTERFACE)
