@@ -2,15 +2,17 @@
 # How every target is compiled, decided here alone (bench/log/build.md has what each measure saves):
 # - Headers of others that many files include are parsed once. Each file still includes what it uses:
 #   -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON builds without.
-# - Code that neither traces, learns nor sums is compiled at -O1, and so are tests: levels change no bit
-#   (-ffp-contract=off; tests/tools/same_images), and what is fast stays at -O3.
-# - Its files are compiled six at a time: our own headers are most of what is parsed, and their inline functions most of
+# - What traces, learns or sums stays at -O3, alone in its file: all of worker, and what it calls. The rest is cold: -O2, and
+#   tests -O1. A linker keeps one copy of an inline function that several files emit, and it may be a cold file's, so a cold file
+#   must not instantiate what a path runs through (bench/effect_cost counts instructions). Levels change no bit
+#   (-ffp-contract=off; tests/tools/same_images).
+# - Cold files are compiled six at a time: our own headers are most of what is parsed, and their inline functions most of
 #   what is generated. -DTREEFARM_UNITY=OFF compiles each by itself, as editors and clang-tidy want it (preset tidy).
 option(TREEFARM_UNITY "compile files of modules that do not trace several at a time" ON)
 set(TREEFARM_UNITY_FILES 6)
 
 # Modules whose speed matters stay as they are. The others, and every test, are cold.
-set(TREEFARM_HOT base film guiding image metrics textures geometry shading lights camera trace_scene integrators worker)
+set(TREEFARM_HOT base film guiding image metrics textures geometry shading lights camera trace_scene integrators tools worker)
 list(TRANSFORM TREEFARM_HOT PREPEND tf_)
 
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled.cpp CONTENT "// carries the precompiled headers\n")
@@ -43,9 +45,11 @@ endfunction()
 
 # Call once every target is there.
 function(treefarm_compile_all)
-    set(cold_level)
+    set(program_level)
+    set(test_level)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TYPE STREQUAL "Release")
-        set(cold_level -O1)
+        set(program_level -O2)
+        set(test_level -O1)
     endif()
     treefarm_targets(targets ${PROJECT_SOURCE_DIR})
     foreach(target IN LISTS targets)
@@ -62,7 +66,11 @@ function(treefarm_compile_all)
             target_precompile_headers(${target} REUSE_FROM tf_precompiled)
         endif()
         if(NOT target IN_LIST TREEFARM_HOT AND NOT folder STREQUAL "bench")
-            target_compile_options(${target} PRIVATE ${cold_level})
+            if(folder MATCHES "^tests")
+                target_compile_options(${target} PRIVATE ${test_level})
+            else()
+                target_compile_options(${target} PRIVATE ${program_level})
+            endif()
             if(NOT target IN_LIST TREEFARM_FILE_BY_FILE)
                 set_target_properties(${target} PROPERTIES UNITY_BUILD ${TREEFARM_UNITY}
                                       UNITY_BUILD_BATCH_SIZE ${TREEFARM_UNITY_FILES})

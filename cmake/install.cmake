@@ -30,8 +30,8 @@ if(TREEFARM_HELP2MAN AND NOT TREEFARM_SANITIZE AND NOT TREEFARM_FUZZ)
     install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)  # built with `all`
 endif()
 
-# Editors and clang-tidy look for it at the root; the folder that was configured first has it.
-if(CMAKE_EXPORT_COMPILE_COMMANDS AND NOT EXISTS ${PROJECT_SOURCE_DIR}/compile_commands.json)
+# Editors and clang-tidy look for it at the root; of builds that compile each file by itself the first one has it.
+if(CMAKE_EXPORT_COMPILE_COMMANDS AND NOT TREEFARM_UNITY AND NOT EXISTS ${PROJECT_SOURCE_DIR}/compile_commands.json)
     file(CREATE_LINK ${PROJECT_BINARY_DIR}/compile_commands.json ${PROJECT_SOURCE_DIR}/compile_commands.json
          RESULT ignored SYMBOLIC)  # not every file system can
 endif()

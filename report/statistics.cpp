@@ -14,7 +14,10 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// 97.5 % quantile of Student's t with `freedom` degrees of freedom.
 double t_quantile(std::size_t freedom) {
-    return boost::math::quantile(boost::math::students_t(static_cast<double>(freedom)), 0.975);
+    // In double: valgrind has no long double, and Boost's constants in it overflow there before main().
+    using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+    return boost::math::quantile(boost::math::students_t_distribution<double, InDouble>(static_cast<double>(freedom)),
+                                 0.975);
 }
 
 double log_interpolate(const CurvePoint& a, const CurvePoint& b, double fraction) {

@@ -19,15 +19,15 @@ enum class MessageLevel { detail, info, warning, error };
 /// Takes the lines of a log, each without line end and control characters. May be empty.
 using TellMessage = std::function<void(MessageLevel, const std::string&)>;
 
-/// A log that tells its lines and, where `file` is not empty, writes them to a file: in a thread of its own, that has
-/// written all when the log ends. `who`: stands before each in the file.
+/// A log that passes its lines to `tell` and, if `file` is not empty, writes them to the file in a separate thread. All
+/// are written when the log ends. `who`: prefix of each line in the file.
 Log make_log(const std::string& who, const std::filesystem::path& file, const TellMessage& tell);
 
-/// Writes lines to the console, as much as `loudness` says. `who` ("treefarm", "worker 3") stands before warnings and
-/// errors; plain information stands alone.
+/// Writes lines to the console, as many as `verbosity` allows. `who` ("treefarm", "worker 3") is the prefix of warnings
+/// and errors; plain information has none.
 TellMessage console_messages(const std::string& who, const ConsolePtr& console, Verbosity verbosity);
 
-/// A log that writes to the console, as much as `loudness` says, and everything to a file, if one is named.
+/// A log that writes to the console, as much as `verbosity` allows, and everything to a file, if one is named.
 Log make_log(const std::string& who, const std::filesystem::path& file, const ConsolePtr& console, Verbosity verbosity);
 
 }  // namespace treefarm

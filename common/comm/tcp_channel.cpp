@@ -176,7 +176,7 @@ std::string TcpChannel::hear(Visitor& visitor) {
     return "";
 }
 
-/// Handles an unauthenticated connection, which may have data if `ready`; false: it is to be removed.
+/// Handles an unauthenticated connection, which may have data if `ready`. Returns whether to keep it.
 bool TcpChannel::see_to(Visitor& visitor, bool ready) {
     std::string why = ready ? hear(visitor) : "";
     if (!send_at_once(visitor.socket, visitor.handshake.take_answer()) && why.empty())

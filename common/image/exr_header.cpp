@@ -23,7 +23,7 @@ constexpr std::uint64_t kSmallestChunk = 8 + 8 + 1;  ///< offset, header and one
 constexpr std::uint64_t kLooseTileBytes = std::uint64_t{16} << 20;
 constexpr std::uint32_t kMultiPartFlag = 0x1000;
 
-/// Claims of a header that memory depends on.
+/// Values of a header that determine the memory for decoding.
 struct Claims {
     std::uint64_t width = 0, height = 0;
     std::uint64_t pixel_bytes = 0;  ///< bytes of all channels
@@ -168,7 +168,7 @@ class HeaderWalk {
         return type == "chlist" || type == "preview" || type == "stringvector";
     }
 
-    /// Pixels from a box's lower to its upper coordinate; x is at 0, y at 4.
+    /// Pixels from a box's lower to its upper coordinate. `axis`: byte offset of the lower one, 0 for x, 4 for y.
     static std::uint64_t side(std::string_view box, std::size_t axis) {
         const auto from = static_cast<std::int32_t>(number(box, axis)),
                    to = static_cast<std::int32_t>(number(box, axis + 8));

@@ -75,7 +75,7 @@ class Farm {
     const Ledger& ledger() const { return *ledger_; }
     /// Seconds from begin_pass() until the last present worker requested units.
     double broadcast_seconds() const { return broadcast_seconds_; }
-    /// Seconds from begin_pass() until the first worker did; before the first pass this includes preparing the scene.
+    /// Seconds from begin_pass() until the first worker's request; in the first pass this includes preparing the scene.
     double first_request_seconds() const { return first_request_seconds_; }
     const Roster& roster() const { return roster_; }
     /// Peers lost in this job or an earlier one that are not back.

@@ -141,7 +141,7 @@ void Supervisor::watch(const Sight& sight) {
     }
 }
 
-/// Watches an attempt that was told to stop: it may take as long as it makes progress outside of a pass.
+/// Watches an attempt that was told to stop: outside of a pass it has unlimited time while it makes progress.
 void Supervisor::watch_stop(const Sight& sight) {
     if (code_at_ || sight.coordinator_gone) return watch(sight);
     const bool writes = own_ && own_->phase != LifePhase::pass;

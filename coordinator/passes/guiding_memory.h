@@ -20,8 +20,8 @@ class GuidingMemory {
   public:
     /// Verdict after a guided pass that recorded.
     GuidingVerdict after_guided(const PassPlan& pass, const GuidingEvidence& evidence);
-    /// Verdict after an unguided pass; `variance`: of a sample, as GuidingEfficiency::unguided_variance; 0: unknown. It
-    /// is `now` if the pass tells nothing new.
+    /// Verdict after an unguided pass; `variance`: of a sample, as GuidingEfficiency::unguided_variance; 0: unknown.
+    /// Returns `now` if the pass adds no evidence.
     GuidingVerdict after_unguided(const PassPlan& pass, double variance, Guiding now);
 
     bool operator==(const GuidingMemory&) const = default;

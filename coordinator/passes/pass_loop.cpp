@@ -148,7 +148,7 @@ class PassLoop {
         state_.partial.reset();
     }
 
-    /// Value that changes with the partial pass's results worth saving.
+    /// Value that changes whenever the partial pass has more results to save.
     std::uint64_t kept_value() const {
         std::uint64_t value = farm_.ledger().done();
         for (const PoisonUnit& unit : farm_.ledger().poison_units())

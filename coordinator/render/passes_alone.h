@@ -9,8 +9,8 @@
 
 namespace treefarm {
 
-/// Renders passes of a request from a state on by a worker in this process, without a run directory. `tell`: receives
-/// error messages. Throws RunError.
+/// Renders passes of a request, beginning with `state`, by a worker in this process, without a run directory. `tell`
+/// receives error messages. Throws RunError.
 RenderResult render_without_files(const RenderRequest& request, const PassChooser& passes, RenderState state,
                                   const PassHooks& hooks, const TellMessage& tell);
 

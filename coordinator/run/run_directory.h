@@ -47,8 +47,8 @@ class RunDirectory {
     std::filesystem::path log_file() const { return path() / kLogFile; }
     std::size_t passes() const { return passes_.size(); }  ///< number of finished passes
 
-    /// Writes the files known before the render, in place of those of the resumed run, once it continues. Throws as the
-    /// constructor.
+    /// Writes the files known before the render. They replace those of a resumed run, so call this only once the
+    /// render continues. Throws as the constructor.
     void write_request();
 
     /// Writes status.json, at most once a second. `farm`: source of the workers' figures, or nullptr.

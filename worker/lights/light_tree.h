@@ -18,9 +18,9 @@ inline std::uint64_t next_bits(std::uint64_t bits) {
     return bits ^ (bits >> 31);
 }
 
-/// Choice among many emitters by their estimated contribution to a point, after Conty Estevez and Kulla 2018: from the
-/// root of a hierarchy of bounds, at each node one of up to eight children in proportion to its estimate. A fraction of
-/// all draws is defensive, without estimates, so that an estimate's error cannot starve an emitter.
+/// Choice among many emitters by their estimated contribution to a point, after Conty Estevez and Kulla 2018. From the
+/// root of a hierarchy of bounds on, one of up to eight children is chosen in proportion to its estimate. A fraction of
+/// all draws ignores the estimates, so that an estimate's error cannot starve an emitter.
 ///
 /// Regions learn the probabilities of clusters of emitters: up to 15 nodes below the root.
 class LightTree {

@@ -19,7 +19,7 @@ struct QTableModel : RegionModel {
     bool operator==(const QTableModel&) const = default;
 };
 
-/// Least weight of a stratum, of its region's mean.
+/// Least weight of a stratum, as a fraction of its region's mean.
 inline constexpr double kTableFloor = 0.02;
 
 /// The table in the form that workers sample from.

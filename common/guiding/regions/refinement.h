@@ -9,8 +9,8 @@
 
 namespace treefarm {
 
-/// Factor by which evidence of emitters, next event, mixtures and visits loses weight with each pass: that of a coarser
-/// model goes out of date.
+/// Factor by which evidence of emitters, next event, mixtures and visits loses weight with each pass, since evidence of
+/// a coarser model is out of date.
 inline constexpr double kKeptEvidence = 0.5;
 
 /// Noise and cost of a pass, by which a decision on next event weighs noise against rays.

@@ -125,7 +125,7 @@ class SdTreeSampler : public RegionSampler {
     static float density(const Cell* cell);
     template <int bits>
     void fill_lookups(LookupTable<bits>& by_mass, LookupTable<bits>& by_code, std::size_t first) const;
-    /// Table entry for this key: the cell is between the one of this entry and the one of the next.
+    /// Table entry for this key. The cell is between the cells of this entry and of the next.
     const std::uint32_t* by_mass(std::uint32_t distribution, std::uint32_t mass) const {
         return distribution < region_count()
                    ? &region_mass_[distribution][mass >> (kMassBits - kRegionBits)]

@@ -11,7 +11,7 @@ namespace treefarm {
 /// Statistics of a tree, without its bytes.
 TreeStatistics tree_statistics(const SdTree& tree);
 
-/// Number of cells per region: its own, and its part of those of a T2 that it shares.
+/// Number of cells per region: the region's own, and its part of the cells of a shared T2.
 std::vector<double> cells_by_region(const SdTree& tree);
 
 /// Mean density of a distribution over directions, per square of a grid of 2^bits by 2^bits squares of the direction

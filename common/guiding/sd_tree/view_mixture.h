@@ -11,8 +11,8 @@
 namespace treefarm {
 
 /// Probability a_2 of sampling T2 at vertices with a view. The alternative is q = a_B p_B + (1 - a_B) p_1, the mixture
-/// that the region learns on its own (mixture.h). A direction is drawn from p_s = a_2 p_2 + (1 - a_2) q, and a_2 is
-/// learned as a_B is, with q in place of the BSDF and p_2 in place of the tree. So a view without evidence leaves its
+/// that the region learns on its own (mixture.h). A direction is drawn from p_s = a_2 p_2 + (1 - a_2) q. a_2 is
+/// learned like a_B, with q in place of the BSDF and p_2 in place of the tree. So a view without evidence leaves its
 /// region unchanged, and a view shared by many regions does not affect what each of them has learned.
 
 /// Gain of a mixture with a share `others` of q over q alone, by the fit to the histogram: nats per record, about twice

@@ -10,8 +10,8 @@
 namespace treefarm {
 
 /// Box filter over directions: a square around the record, of the size of its cell, overlaps two by two squares of the
-/// grid of that size. Each part goes to one cell: where the grid is finer, to that of a point drawn from the overlap,
-/// so that the expectation is that of the box. A block of records is processed side by side, in vector registers.
+/// grid of that size. Each part goes to one cell. Where cells are finer, it is the cell of a point drawn from the
+/// overlap, so that the expectation is the box's. A block of records is processed side by side, in vector registers.
 class BoxBlock {
   public:
     static constexpr std::uint32_t kRecords = 32;

@@ -6,7 +6,6 @@
 
 #include "common/config/effect_switches.h"
 #include "common/config/effects/table.h"
-#include "common/plan/effects/strip_scene.h"
 #include "common/scene/uses/emitter_uses.h"
 #include "common/scene/uses/material_traits.h"
 #include "common/scene/uses/material_uses.h"

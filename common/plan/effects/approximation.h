@@ -22,4 +22,8 @@ struct Approximation {
 /// are not listed.
 std::vector<Approximation> switch_effects_off(Scene& scene, const Job& job);
 
+/// Removes everything unused from a scene (remove_unused), and the texture coordinates of meshes without textures, so
+/// that it is neither broadcast nor held by workers.
+void strip_scene(Scene& scene);
+
 }  // namespace treefarm

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/plan/effects/strip_scene.h"
-
+#include "common/plan/effects/approximation.h"
 #include "common/scene/uses/emitter_uses.h"
 #include "common/scene/uses/material_traits.h"
 #include "common/scene/uses/mesh_attribute_uses.h"

@@ -56,7 +56,7 @@ class Outlook {
   public:
     explicit Outlook(const RenderHistory& state);
 
-    /// Whether a pass has told the variance of its samples.
+    /// Whether the variance of samples is known from a pass.
     bool knows_variance() const { return variance_ > 0 || quiet_; }
     /// Variance of one sample at present, measured by the last trees together, as far as they show no progress.
     /// Progress is measured without the worst pixels, in which a rare sample says nothing about the tree.

@@ -15,8 +15,8 @@ namespace {
 constexpr double kFiner = 0x1p-20;
 /// Quanta in the value that splat_exponent() expects.
 constexpr double kOfExponent = 0x1p10;
-/// A lamp at the lens is seen from this squared distance at least, over that of the scene; and counts only where it is
-/// more than kAlike times as bright as from the scene's distance.
+/// Least squared distance of a lamp from the lens, relative to the scene's. Nearer distances than the scene's count
+/// only if the light is then more than kAlike times as bright.
 constexpr double kNearest = 0x1p-16, kAlike = 16.0;
 
 /// Camera importance at the middle of the film, per area facing the camera at this distance.
@@ -29,8 +29,8 @@ double importance(const Camera& camera, double distance2) {
     return length2 * std::sqrt(length2) / std::abs(middle.dot(n)) / distance2;
 }
 
-/// Squared distance from the lens at which an emitter's light is seen. Light falls near its lamp: the distance is the
-/// lamp's, at most that of the scene, at least `nearest` of it.
+/// Squared distance from the lens at which an emitter's light is seen. Light falls near its lamp, so this is the
+/// lamp's distance, limited to between `nearest` times the scene's and the scene's.
 double seen_from(const Scene& scene, const Box3& lamp, double distance2, double nearest) {
     if (lamp.isEmpty()) return distance2;
     const Imath::V3d half = (Imath::V3d(lamp.max) - Imath::V3d(lamp.min)) * 0.5;
@@ -38,8 +38,8 @@ double seen_from(const Scene& scene, const Box3& lamp, double distance2, double 
     return std::clamp(to_lamp.dot(to_lamp) + half.dot(half), nearest * distance2, distance2);
 }
 
-/// Power in watts that the emitters send into a ball of radius R around the surfaces, mean of the channels, from each
-/// emitter's radiance there, times the camera's importance where it is seen.
+/// Power in watts, as a mean of the channels, that the emitters send into a ball of radius R around the surfaces,
+/// each times the camera's importance at the distance from which it is seen.
 double power_seen(const Scene& scene, double radius2, double distance2, double nearest) {
     const LitScene lit{static_cast<float>(radius2), scene.images};
     double sum = 0;

@@ -6,11 +6,11 @@
 
 namespace treefarm {
 
-/// Verdict after a guided pass that taught: compares the efficiency of guiding times `mistrust` with a bar. `mistrust`:
+/// Verdict after a guided pass that trained: compares efficiency of guiding times `mistrust` with a limit. `mistrust`:
 /// factor by which unguided passes were noisier than guided samples had predicted. `before`: efficiency with the
 /// previous tree; if the efficiency has grown, the next tree is expected to gain the same factor again, and that
 /// expectation is judged. In doubt passes stay guided: guiding loses at most its cost, unguided paths may lose without
-/// bound. Trees of short passes improve in any case, so their bar is lower.
+/// bound. Trees of short passes improve in any case, so their limit is lower.
 Guiding judge_guiding(const PassPlan& pass, const GuidingEfficiency& efficiency, const GuidingEfficiency& before,
                       double mistrust);
 

@@ -17,8 +17,8 @@ struct ObjMaterial {
     Location where;                 ///< of the emission
 };
 
-/// Materials of the triangles before any usemtl, then those of ObjFile::materials. A BSDF inside the shape with the
-/// name or id of a material is used for it; one without such a name is used for all. Otherwise materials come from the
+/// Materials of the triangles before any usemtl, then those of ObjFile::materials. A BSDF inside the shape whose
+/// name or id is a material's defines that material; one without such a name defines all. Otherwise they come from the
 /// MTL files, if `load_libraries`, or are the default one.
 std::vector<ObjMaterial> assign_obj_materials(const ObjFile& obj, const std::filesystem::path& file,
                                               bool load_libraries, bool on_emitter, Properties& properties,

@@ -10,9 +10,9 @@
 
 namespace treefarm {
 
-/// Splits at smooth glass, which has two branches. Where the camera sees it, a path takes the likelier branch with
-/// certainty, and the other one, of probability p, is also followed with probability min(1, 4 p), weighted accordingly
-/// and added to the same sample. The refracted image thus has no noise from the choice, a reflection has a quarter of
+/// Splits at smooth glass, which has two branches. Where the camera sees it, a path always takes the likelier branch.
+/// The other one, of probability p, is followed, too, with probability min(1, 4 p). It is weighted accordingly and
+/// added to the same sample. The refracted image thus has no noise from the choice, a reflection has a quarter of
 /// the noise or less, and a faint reflection does not cost a whole path.
 class GlassSplits {
   public:

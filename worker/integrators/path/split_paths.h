@@ -64,7 +64,7 @@ struct SplitPath {
 
 /// Splitting: a path that is expected to carry far more than its first vertex does continues as several, each with its
 /// part (after Vorba and Krivanek 2016, "Adjoint-driven Russian roulette and splitting"). Split paths walk together
-/// when the paths that left them are done; the paths that they split off follow in the next round. The numbers of a
+/// when the paths that they come from are done; the paths that they split off walk in the next round. The numbers of a
 /// camera path's split paths do not depend on other paths: they are ordered by parent path, then by the order of
 /// splitting.
 class SplitPaths {

@@ -53,8 +53,8 @@ class Roulette {
         return true;
     }
 
-    /// Number of paths, at most `most`, as which a path continues whose expected contribution is several times that of
-    /// its first vertex; each then has at least the policy's fraction of the latter. 1 for rules other than adjoint.
+    /// Number of paths, at most `most`, into which a path splits. Above 1 if its expected contribution is several times
+    /// its first vertex's; each path then has at least the policy's fraction of the latter. 1 unless adjoint.
     std::uint32_t splitting(const Rgb& throughput, float scale, float brightness, std::uint32_t most) const {
         if (rule_ != Rule::adjoint) return 1;
         const float paths =
