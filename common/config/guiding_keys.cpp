@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/config/guiding_keys.h"
-
 #include "common/config/job_key_makers.h"
 
 namespace treefarm {

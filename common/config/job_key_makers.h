@@ -129,4 +129,7 @@ JobKey rule_key(const char* name, const char* doc, Member member) {
                         {"usual", Rule::usual}, {"always", Rule::always}, {"while_it_pays", Rule::while_it_pays}});
 }
 
+/// The keys of job_keys() that begin with "guiding.".
+std::vector<JobKey> guiding_keys();
+
 }  // namespace treefarm

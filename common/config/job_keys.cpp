@@ -7,7 +7,6 @@
 #include "common/config/aov_list.h"
 #include "common/config/effect_switches.h"
 #include "common/config/estimators.h"
-#include "common/config/guiding_keys.h"
 #include "common/config/job_key_makers.h"
 #include "common/config/quantities.h"
 #include "common/config/techniques.h"

@@ -6,9 +6,8 @@
 
 #include "common/base/error.h"
 #include "common/image/srgb.h"
+#include "coordinator/input/images/decoders.h"
 #include "coordinator/input/images/encoded_image.h"
-#include "coordinator/input/images/jpeg_decode.h"
-#include "coordinator/input/images/png_decode.h"
 
 namespace treefarm {
 

@@ -9,11 +9,10 @@
 #include "common/base/files/read_bytes.h"
 #include "common/image/image.h"
 #include "coordinator/input/images/bitmap_check.h"
+#include "coordinator/input/images/decoders.h"
 #include "coordinator/input/images/hdr.h"
-#include "coordinator/input/images/jpeg_decode.h"
 #include "coordinator/input/images/lfs_pointer.h"
 #include "coordinator/input/images/netpbm.h"
-#include "coordinator/input/images/png_decode.h"
 
 namespace treefarm {
 namespace {

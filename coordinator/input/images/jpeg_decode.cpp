@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/input/images/jpeg_decode.h"
-
 #include <csetjmp>
 #include <cstdio>  // jpeglib.h does not include it
+
+#include "coordinator/input/images/decoders.h"
 //
 #include <jerror.h>
 #include <jpeglib.h>

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/input/images/png_decode.h"
-
 #include <png.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <cstring>
 
 #include "common/image/image.h"
+#include "coordinator/input/images/decoders.h"
 
 namespace treefarm {
 namespace {

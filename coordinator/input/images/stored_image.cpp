@@ -7,11 +7,10 @@
 #include "common/base/error.h"
 #include "common/image/exr.h"
 #include "coordinator/input/images/color_channels.h"
+#include "coordinator/input/images/decoders.h"
 #include "coordinator/input/images/encoded_image.h"
 #include "coordinator/input/images/hdr.h"
-#include "coordinator/input/images/jpeg_decode.h"
 #include "coordinator/input/images/netpbm.h"
-#include "coordinator/input/images/png_decode.h"
 #include "coordinator/input/images/stb.h"
 
 namespace treefarm {
