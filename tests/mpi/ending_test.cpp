@@ -97,7 +97,7 @@ TEST(Ending, ASignalToMpirunEndsEverything) {
 
 TEST(Ending, AKilledWorkerCostsTimeNotBits) {
 #ifdef NDEBUG
-    const std::string spp = "2032";  // long enough to notice the loss
+    const std::string spp = "1016";  // long enough to notice the loss
 #else
     const std::string spp = "508";
 #endif

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr double kSoon = 180;  ///< seconds; what is meant is "not never"
 
 #ifdef NDEBUG
-const std::string kSpp = "2032";  // some seconds
+const std::string kSpp = "1016";  // some seconds
 #else
 const std::string kSpp = "252";
 #endif
