@@ -29,7 +29,7 @@ build() {
 
 # tell_build PRESET: what building treefarm takes, before it starts. A core compiles a file in about five seconds.
 tell_build() {
-    local files=230 cores
+    local files=193 cores
     cores="$(nproc)"
     if [[ -x "$root/build/$1/treefarm" ]]; then
         echo "deploy/$(basename "$0"): the program is there; what has changed is built again"
