@@ -27,7 +27,7 @@ Estimate render(const Scene& scene, const Job& job) {
 }
 
 /// The job that tests of glossy scenes start from.
-Job short_job(std::uint64_t seed, int spp) {
+Job short_job(std::uint64_t seed, std::uint32_t spp) {
     Job job;
     job.integrator.max_depth = 10;
     job.sampler.seed = seed;

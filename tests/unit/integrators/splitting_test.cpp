@@ -240,7 +240,7 @@ TEST(Splitting, FractionsSumToOne) {
     ASSERT_GT(tree.region_count(), 4u);
     for (std::uint32_t r = 0; r < tree.region_count(); ++r) {
         tree.bsdf_fraction[r] = 1.0f;
-        tree.quantum_exponent[r] = static_cast<std::int16_t>(tree.quantum_exponent[r] + r % 5);
+        tree.quantum_exponent[r] = static_cast<std::int16_t>(tree.quantum_exponent[r] + static_cast<int>(r % 5));
     }
     PassPlan pass;
     pass.spp = 16;
