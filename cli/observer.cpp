@@ -5,9 +5,9 @@
 
 namespace treefarm {
 
-RenderObserver make_observer(const LogOutput& voice, const std::shared_ptr<SignOfLife>& life) {
+RenderObserver make_observer(const LogOutput& log_output, const std::shared_ptr<SignOfLife>& life) {
     RenderObserver observer;
-    observer.message = console_messages("treefarm", voice.console, voice.verbosity);
+    observer.message = console_messages("treefarm", log_output.console, log_output.verbosity);
     if (!life) return observer;
     observer.phase = [life](LifePhase phase) { life->enter(phase); };
     observer.progress = [life](const RenderProgress& progress, const Roster& roster) {
@@ -22,10 +22,10 @@ RenderObserver make_observer(const LogOutput& voice, const std::shared_ptr<SignO
     return observer;
 }
 
-SeriesContext make_series(const RenderOrigin& origin, const RenderWorkers& workers, const LogOutput& voice,
+SeriesContext make_series(const RenderOrigin& origin, const RenderWorkers& workers, const LogOutput& log_output,
                           const Log& log, const std::shared_ptr<SignOfLife>& life) {
-    const Verbosity within = voice.verbosity == Verbosity::verbose ? Verbosity::verbose : Verbosity::quiet;
-    SeriesContext series{origin, workers, make_observer({voice.console, within}, life), voice.console, log};
+    const Verbosity within = log_output.verbosity == Verbosity::verbose ? Verbosity::verbose : Verbosity::quiet;
+    SeriesContext series{origin, workers, make_observer({log_output.console, within}, life), log_output.console, log};
     if (life) series.origin.attempt = life->attempt();
     if (life)
         series.observer.end = [life](const RenderOutcome& outcome) {

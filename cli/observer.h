@@ -10,11 +10,11 @@
 namespace treefarm {
 
 /// Observer that prints a render's messages for the user, and reports its progress to a supervisor (nullptr: none).
-RenderObserver make_observer(const LogOutput& voice, const std::shared_ptr<SignOfLife>& life);
+RenderObserver make_observer(const LogOutput& log_output, const std::shared_ptr<SignOfLife>& life);
 
 /// Context of a series of renders with one console line per render; details of a render are printed only if verbose,
 /// otherwise its errors.
-SeriesContext make_series(const RenderOrigin& origin, const RenderWorkers& workers, const LogOutput& voice,
+SeriesContext make_series(const RenderOrigin& origin, const RenderWorkers& workers, const LogOutput& log_output,
                           const Log& log, const std::shared_ptr<SignOfLife>& life);
 
 }  // namespace treefarm

@@ -51,12 +51,12 @@ std::pair<RenderRequest, double> smaller_request(const PlanOptions& options, con
 
 /// The probe by so many threads of this process.
 Probe probe_here(RenderRequest& request, double seconds, unsigned threads) {
-    const LogOutput voice = errors_only();
+    const LogOutput log_output = errors_only();
     ignore_broken_pipes();
     InterruptWatch watch;
-    request.workers.local = local_worker(threads, voice);
+    request.workers.local = local_worker(threads, log_output);
     request.workers.stop = [&] { return watch.interrupted(); };
-    Probe probe = run_probe(request, seconds, console_messages("treefarm", voice.console, voice.verbosity));
+    Probe probe = run_probe(request, seconds, console_messages("treefarm", log_output.console, log_output.verbosity));
     probe.threads = threads > 0 ? threads : affinity_threads();
     return probe;
 }

@@ -2,8 +2,9 @@
 #include "common/runs/run_json.h"
 
 #include <fstream>
-#include <iterator>
 #include <utility>
+
+#include "common/base/files/read_bytes.h"
 
 namespace treefarm {
 
@@ -68,8 +69,7 @@ RunJson parse_run_json(const std::string& text) {
 }
 
 RunJson read_run_json(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return parse_run_json(std::string(std::istreambuf_iterator<char>(file), {}));
+    return parse_run_json(read_text(path));
 }
 
 RunJson read_whole_run_json(const std::filesystem::path& path) {
