@@ -101,7 +101,8 @@ class RenderRun {
         const Film& film = request_.content.scene.film;
         RenderState state = take_state();
         words_.tell_start(state, passes(state.history));
-        door_.emplace(channel_, request_.content.job.farm, request_.origin.fingerprint.hash(), directory_.path(), log_);
+        join_listener_.emplace(channel_, request_.content.job.farm, request_.origin.fingerprint.hash(),
+                               directory_.path(), log_);
         enter(LifePhase::gather);
         farm_.gather(interrupted_);
         if (request_.start.checkpoint) {
@@ -191,7 +192,7 @@ class RenderRun {
     const Log log_;
     LiveDisplay display_;
     Farm farm_;
-    std::optional<JoinListener> door_;
+    std::optional<JoinListener> join_listener_;
     std::size_t pass_count_ = 0;      ///< 0: not known
     const std::uint32_t spp_before_;  ///< of the resumed run
     bool went_on_ = false;            ///< it has resumed that run

@@ -26,7 +26,7 @@ class EmissionChoice {
         }
         if (!(sum > 0)) return;
         // Learned values may be wrong: no emitter is chosen much less often than by power.
-        constexpr auto kUnlearned = double(0.2f);
+        constexpr auto kUnlearned = double(0.2f);  // not 0.2: images keep their bits
         for (std::uint32_t i = 0; i < power.size(); ++i)
             weights[i] = (1 - kUnlearned) * weights[i] / sum + kUnlearned * double(power.probability(i));
         learned_ = DiscreteTable(weights);
