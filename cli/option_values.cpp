@@ -24,7 +24,7 @@ std::string typed(const std::string& option, const std::string& example) {
     return option + " " + example;
 }
 
-[[noreturn]] void refuse(const std::string& option, const std::string& what, const std::string& cure) {
+[[noreturn]] void refuse_value(const std::string& option, const std::string& what, const std::string& cure) {
     throw InputError(Location{option, 0, 0}, what, cure);
 }
 
@@ -41,20 +41,20 @@ std::string range_cure(const std::string& option, const NumberRange& range, cons
 double within(const std::string& option, const std::string& text, const NumberRange& range, const char* kind) {
     const auto number = parse_number(text);
     const std::string cure = range_cure(option, range, kind);
-    if (!number) refuse(option, not_a_number(text), cure);
-    if (*number < range.low) refuse(option, in_quotes(text) + " is less than " + text_of(range.low), cure);
-    if (*number > range.high) refuse(option, in_quotes(text) + " is more than " + text_of(range.high), cure);
+    if (!number) refuse_value(option, not_a_number(text), cure);
+    if (*number < range.low) refuse_value(option, in_quotes(text) + " is less than " + text_of(range.low), cure);
+    if (*number > range.high) refuse_value(option, in_quotes(text) + " is more than " + text_of(range.high), cure);
     return *number;
 }
 
 /// Checks the value of a text option as -o: not empty, and not the next option.
 void check_text(const std::string& option, const std::string& text) {
-    if (text.empty()) refuse(option, "the value is empty", "give one, or leave " + option + " away");
+    if (text.empty()) refuse_value(option, "the value is empty", "give one, or leave " + option + " away");
     if (text.starts_with("--"))
-        refuse(option, "no value before " + text,
-               "give one, or leave " + option + " away; a name that begins so: ./" + text);
+        refuse_value(option, "no value before " + text,
+                     "give one, or leave " + option + " away; a name that begins so: ./" + text);
     if (text.front() == '=' && !option.starts_with("--"))
-        refuse(option, "its value would begin with \"=\"", "write " + typed(option, text.substr(1)));
+        refuse_value(option, "its value would begin with \"=\"", "write " + typed(option, text.substr(1)));
 }
 
 /// First name of "-o,--output", for messages.
@@ -72,8 +72,9 @@ std::int64_t checked_integer(const std::string& option, const std::string& text,
     const double number = within(option, text, range, "whole ");
     if (const auto integer = parse_integer(text)) return *integer;
     if (std::floor(number) == number)
-        refuse(option, in_quotes(text) + " is not written in digits alone", "write " + typed(option, text_of(number)));
-    refuse(option, in_quotes(text) + " is not a whole number", range_cure(option, range, "whole "));
+        refuse_value(option, in_quotes(text) + " is not written in digits alone",
+                     "write " + typed(option, text_of(number)));
+    refuse_value(option, in_quotes(text) + " is not a whole number", range_cure(option, range, "whole "));
 }
 
 std::uint32_t checked_samples(const std::string& text) {
@@ -84,23 +85,27 @@ double checked_seconds(const std::string& option, const std::string& text) {
     const std::string cure =
         "give seconds, or a number with a unit (s, min, h): " + typed(option, "90") + ", " + typed(option, "2min");
     const auto seconds = parse_duration(text);
-    if (!seconds) refuse(option, trim(text).empty() ? "the value is empty" : in_quotes(text) + " is no time", cure);
-    if (*seconds == 0) refuse(option, "in 0 seconds nothing is rendered", cure);
-    if (*seconds < kLeastSeconds) refuse(option, in_quotes(text) + " is less than a thousandth of a second", cure);
-    if (*seconds > kMostSeconds) refuse(option, in_quotes(text) + " is more than 10^8 seconds, three years", cure);
+    if (!seconds)
+        refuse_value(option, trim(text).empty() ? "the value is empty" : in_quotes(text) + " is no time", cure);
+    if (*seconds == 0) refuse_value(option, "in 0 seconds nothing is rendered", cure);
+    if (*seconds < kLeastSeconds)
+        refuse_value(option, in_quotes(text) + " is less than a thousandth of a second", cure);
+    if (*seconds > kMostSeconds)
+        refuse_value(option, in_quotes(text) + " is more than 10^8 seconds, three years", cure);
     return *seconds;
 }
 
 double checked_error(const std::string& text) {
     const std::string cure = "give a fraction of the mean, or a percentage: --error 0.05 or --error 5%";
     const auto error = parse_fraction(text);
-    if (!error) refuse("--error", not_a_number(text), cure);
-    if (*error == 0) refuse("--error", "an error of 0 takes forever", cure);
-    if (*error < 0) refuse("--error", in_quotes(text) + " is negative", cure);
-    if (*error < kLeastError) refuse("--error", in_quotes(text) + " is less than 10^-6, which takes forever", cure);
+    if (!error) refuse_value("--error", not_a_number(text), cure);
+    if (*error == 0) refuse_value("--error", "an error of 0 takes forever", cure);
+    if (*error < 0) refuse_value("--error", in_quotes(text) + " is negative", cure);
+    if (*error < kLeastError)
+        refuse_value("--error", in_quotes(text) + " is less than 10^-6, which takes forever", cure);
     if (*error > kGreatestError) {
         const bool percent = text.find('%') == std::string::npos && *error <= 100;
-        refuse(
+        refuse_value(
             "--error",
             in_quotes(text) + " is " + text_of(100 * *error) + " % of the mean, and a black image is as good as 100 %",
             percent ? "for " + text_of(*error) + " % write --error " + number_text(*error / 100) + " or --error " +

@@ -9,7 +9,8 @@
 # - Cold files are compiled six at a time: our own headers are most of what is parsed, and their inline functions most of
 #   what is generated. -DTREEFARM_UNITY=OFF compiles each by itself, as editors and clang-tidy want it (preset tidy).
 option(TREEFARM_UNITY "compile files of modules that do not trace several at a time" ON)
-set(TREEFARM_UNITY_FILES 6)
+set(TREEFARM_UNITY_FILES 6 CACHE STRING "files compiled as one")
+option(TREEFARM_UNITY_HOT "" OFF)
 set(TREEFARM_COLD_LEVEL "" CACHE STRING "level of cold files; empty: -O2, and -O1 for tests, in a release build by g++")
 
 # Modules whose speed matters stay as they are. The others, and every test, are cold.
@@ -31,7 +32,7 @@ endfunction()
 treefarm_precompiled(tf_precompiled)
 
 # Tests whose files each have helpers of the same names: by themselves.
-set(TREEFARM_FILE_BY_FILE statistical_test stability_test mpi_test)
+set(TREEFARM_FILE_BY_FILE mpi_test)
 
 # treefarm_targets(OUT DIRECTORY): libraries and programs of a folder and those below it.
 function(treefarm_targets OUT DIRECTORY)
@@ -72,6 +73,8 @@ function(treefarm_compile_all)
             else()
                 target_compile_options(${target} PRIVATE ${program_level})
             endif()
+        endif()
+        if(TREEFARM_UNITY_HOT OR (NOT target IN_LIST TREEFARM_HOT AND NOT folder STREQUAL "bench"))
             if(NOT target IN_LIST TREEFARM_FILE_BY_FILE)
                 set_target_properties(${target} PROPERTIES UNITY_BUILD ${TREEFARM_UNITY}
                                       UNITY_BUILD_BATCH_SIZE ${TREEFARM_UNITY_FILES})

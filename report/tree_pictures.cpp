@@ -15,21 +15,21 @@ namespace treefarm {
 
 namespace {
 
-using Json = nlohmann::json;
+using TreeJson = nlohmann::json;
 
 /// HTML of a picture beside inspect.json, embedded. Only its name counts, since folders may be moved.
-std::string figure(const std::filesystem::path& folder, const Json& picture, const std::string& caption) {
+std::string figure(const std::filesystem::path& folder, const TreeJson& picture, const std::string& caption) {
     const std::filesystem::path file = folder / std::filesystem::path(picture.at("file").get<std::string>()).filename();
     return R"(<figure><img alt="" src="data:image/png;base64,)" +
            base64(read_bytes(file, "run treefarm inspect again")) + "\"><figcaption>" + html_text(caption) +
            "</figcaption></figure>\n";
 }
 
-std::string point_figures(const std::filesystem::path& folder, const Json& point) {
+std::string point_figures(const std::filesystem::path& folder, const TreeJson& point) {
     std::string html;
-    for (const Json& picture : point.at("pictures")) {
+    for (const TreeJson& picture : point.at("pictures")) {
         std::string panels;
-        for (const Json& panel : picture.at("panels"))
+        for (const TreeJson& panel : picture.at("panels"))
             panels += (panels.empty() ? "" : " | ") + panel.get<std::string>();
         html += figure(
             folder, picture,
@@ -39,7 +39,7 @@ std::string point_figures(const std::filesystem::path& folder, const Json& point
     return html;
 }
 
-std::string map_figure(const std::filesystem::path& folder, const Json& map) {
+std::string map_figure(const std::filesystem::path& folder, const TreeJson& map) {
     std::string caption = map.at("kind").get<std::string>();
     if (map.contains("white"))
         caption += fmt::format("; white {:.4g}, mean {:.3g}", map["white"].get<double>(), map["mean"].get<double>());
@@ -49,19 +49,19 @@ std::string map_figure(const std::filesystem::path& folder, const Json& map) {
 std::string cell_pictures(const CellResult& cell, const std::filesystem::path& file) {
     std::ifstream in(file);
     try {
-        const Json json = Json::parse(in);
-        const Json& tree = json.at("tree");
+        const TreeJson json = TreeJson::parse(in);
+        const TreeJson& tree = json.at("tree");
         std::string html = fmt::format(
             "<h4>{}</h4>\n<p class=\"note\">{} regions, {} cells of T1; T2 in {:.1f} % of the regions, {} "
             "cells.</p>\n<div class=\"trees\">\n",
             html_text(cell.method), tree.at("regions").get<std::uint64_t>(), tree.at("t1_cells").get<std::uint64_t>(),
             100 * tree.at("t2_share").get<double>(), tree.at("t2_cells").get<std::uint64_t>());
-        for (const Json& point : json.at("places"))
+        for (const TreeJson& point : json.at("places"))
             html += point_figures(file.parent_path(), point);
-        for (const Json& map : json.at("maps"))
+        for (const TreeJson& map : json.at("maps"))
             html += map_figure(file.parent_path(), map);
         return html + "</div>\n";
-    } catch (const Json::exception& error) {
+    } catch (const TreeJson::exception& error) {
         throw InputError(Location{file.string(), 0, 0}, std::string("cannot be read: ") + error.what(),
                          "run treefarm inspect again, or remove it");
     }

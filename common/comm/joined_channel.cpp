@@ -16,7 +16,6 @@ namespace treefarm {
 namespace {
 
 constexpr double kConnectSeconds = 10, kAnswerSeconds = 10;
-constexpr std::size_t kScratchBytes = std::size_t{256} << 10;
 
 /// Peer numbers on a guest's own channel, which has only the coordinator.
 constexpr int kSelf = 1, kPeers = 2;

@@ -18,8 +18,6 @@ namespace treefarm {
 
 namespace {
 
-constexpr std::size_t kScratchBytes = std::size_t{256} << 10;
-
 /// Limit of warnings about unauthenticated connections, so that they cannot fill the log.
 constexpr int kMostWarnings = 20;
 

@@ -12,6 +12,9 @@
 
 namespace treefarm {
 
+/// Bytes that a link reads at once.
+inline constexpr std::size_t kScratchBytes = std::size_t{256} << 10;
+
 /// One end of a session over a non-blocking socket.
 class TcpLink {
   public:

@@ -18,7 +18,7 @@ namespace {
 constexpr double kVarianceClamp = 1e4;
 
 /// Least number of pixels per thread.
-constexpr std::size_t kLeastPart = 1024;
+constexpr std::size_t kLeastCombined = 1024;
 
 /// Consecutive passes with one tree and one way of sampling emitters.
 using Alike = std::span<const PassResult>;
@@ -243,7 +243,7 @@ CombinedImage combine_halves(std::span<const PassResult> passes, const std::arra
     for (std::vector<Rgb64>* values : {&image.mean, &image.variance, &image.half[0], &image.half[1]})
         values->resize(count);
     const PassResult& longest = longest_pass(passes);
-    in_parts(count, kLeastPart, [&](std::size_t begin, std::size_t end) {
+    in_parts(count, kLeastCombined, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p) {
             const Estimate a = combine_half(passes, weights[0], 0, p, longest);
             const Estimate b = combine_half(passes, weights[1], 1, p, longest);
@@ -266,7 +266,7 @@ CombinedImage combine_whole(std::span<const PassResult> passes, const std::vecto
     image.mean.assign(count, Rgb64(0.0));
     image.variance.assign(count, Rgb64(0.0));
     const PassResult& longest = longest_pass(passes);
-    in_parts(count, kLeastPart, [&](std::size_t begin, std::size_t end) {
+    in_parts(count, kLeastCombined, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p) {
             double sum = 0, left_out = 0;
             for (std::size_t k = 0; k < passes.size(); ++k) {

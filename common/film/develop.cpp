@@ -10,7 +10,7 @@ namespace treefarm {
 namespace {
 
 /// Least number of pixels per thread.
-constexpr std::size_t kLeastPart = 4096;
+constexpr std::size_t kLeastDeveloped = 4096;
 
 /// Adds the splats of a half of a pixel. `paths`: number of the half's paths, or samples, at least one; for Markov
 /// chains the half must have two chains.
@@ -49,7 +49,7 @@ std::vector<PixelEstimate> develop(std::vector<PixelEstimate> estimates, const S
             blank.half[half].n = paths[half];
         estimates.assign(shape.pixels, blank);
     }
-    in_parts(estimates.size(), kLeastPart, [&](std::size_t begin, std::size_t end) {
+    in_parts(estimates.size(), kLeastDeveloped, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p)
             for (std::size_t half = 0; half < 2; ++half) {
                 Moments& pixel = estimates[p].half[half];

@@ -10,7 +10,7 @@ namespace treefarm {
 namespace {
 
 /// Least number of pixels per thread.
-constexpr std::size_t kLeastPart = 4096;
+constexpr std::size_t kLeastFolded = 4096;
 
 /// Cost of merging a pass into the one before it.
 enum class Loss { none, other_tree, other_technique };
@@ -32,7 +32,7 @@ void merge_into(PassResult& first, PassResult second) {
     first.spp += second.spp;
     first.guided = second.guided;
     first.stored.clear();
-    in_parts(first.pixels.size(), kLeastPart, [&](std::size_t begin, std::size_t end) {
+    in_parts(first.pixels.size(), kLeastFolded, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p)
             first.pixels[p] = PixelEstimate::merge(first.pixels[p], second.pixels[p]);
     });

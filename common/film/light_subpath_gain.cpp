@@ -10,16 +10,16 @@ namespace treefarm {
 namespace {
 
 /// Unit of the sums: 64 bits hold those of 2^29 samples of the largest variance, and of 2^40 samples of the usual one.
-constexpr double kUnitsPerOne = 0x1p24;
+constexpr double kGainUnit = 0x1p24;
 
-std::uint64_t in_units(double value) {
-    return static_cast<std::uint64_t>(std::llround(std::max(value, 0.0) * kUnitsPerOne));
+std::uint64_t in_gain_units(double value) {
+    return static_cast<std::uint64_t>(std::llround(std::max(value, 0.0) * kGainUnit));
 }
 
 /// Part of LightSubpathGain::noise from light that samples without light subpaths miss; 0: none.
 double missed_light_noise(const LightSubpathSums& sums) {
     const auto samples = static_cast<double>(sums.samples);
-    const auto mean = [samples](std::uint64_t sum) { return static_cast<double>(sum) / (samples * kUnitsPerOne); };
+    const auto mean = [samples](std::uint64_t sum) { return static_cast<double>(sum) / (samples * kGainUnit); };
     const double variance = mean(sums.both_variance);
     const double error = std::sqrt((variance + mean(sums.alone_variance)) / samples);
     const double missed = mean(sums.both_mean) - mean(sums.alone_mean);
@@ -48,11 +48,11 @@ void SubpathPairs::finish(LightSubpathSums& sums) {
     const auto variance = [n](double sum, double squares) { return (squares - sum * sum / n) / (n - 1); };
     if (count_ > 1) {
         sums.samples += static_cast<std::uint64_t>(count_);
-        sums.both_mean += in_units(own_ + splats_);
-        sums.alone_mean += in_units(alone_);
+        sums.both_mean += in_gain_units(own_ + splats_);
+        sums.alone_mean += in_gain_units(alone_);
         // Splats are so rare in a pixel that the sum of their squares is the variance of their sum.
-        sums.both_variance += in_units(n * variance(own_, own_squares_) + splat_squares_);
-        sums.alone_variance += in_units(n * variance(alone_, alone_squares_));
+        sums.both_variance += in_gain_units(n * variance(own_, own_squares_) + splat_squares_);
+        sums.alone_variance += in_gain_units(n * variance(alone_, alone_squares_));
     }
     *this = {};
 }

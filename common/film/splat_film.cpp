@@ -37,7 +37,7 @@ bool is_splat(const Rgb& value) {
            value.z >= 0;
 }
 
-void add_saturating(std::uint64_t& sum, std::uint64_t more) {
+void add_splats(std::uint64_t& sum, std::uint64_t more) {
     sum = std::min(sum + more, kMostSplatSum);  // both are at most 2^63; larger sums are the limit
     if (more == kMostSplatSum) sum = kMostSplatSum;
 }
@@ -106,8 +106,8 @@ void SplatCaps::add(const SplatCaps& other) {
 
 void SplatMoments::add(const SplatMoments& other) {
     for (std::size_t c = 0; c < 3; ++c) {
-        add_saturating(sum[c], other.sum[c]);
-        add_saturating(square[c], other.square[c]);
+        add_splats(sum[c], other.sum[c]);
+        add_splats(square[c], other.square[c]);
     }
 }
 

@@ -8,10 +8,10 @@ namespace treefarm {
 namespace {
 
 /// Unit of the sums: 64 bits hold almost 2^29 pixels of the largest variance.
-constexpr double kUnitsPerOne = 4096;
+constexpr double kSplitUnit = 4096;
 
-std::uint64_t in_units(double value) {
-    return static_cast<std::uint64_t>(std::llround(std::max(value, 0.0) * kUnitsPerOne));
+std::uint64_t in_split_units(double value) {
+    return static_cast<std::uint64_t>(std::llround(std::max(value, 0.0) * kSplitUnit));
 }
 
 }  // namespace
@@ -33,10 +33,10 @@ void PairedSamples::finish(SplittingSums& sums) {
     const double n = count_;
     const auto variance = [n](const Sums& s) { return (s.second - s.first * s.first / n) / (n - 1); };
     if (count_ > 1) {
-        sums.split_mean += in_units(split_.first / n);
-        sums.unsplit_mean += in_units(unsplit_.first / n);
-        sums.split_variance += in_units(variance(split_));
-        sums.unsplit_variance += in_units(variance(unsplit_));
+        sums.split_mean += in_split_units(split_.first / n);
+        sums.unsplit_mean += in_split_units(unsplit_.first / n);
+        sums.split_variance += in_split_units(variance(split_));
+        sums.unsplit_variance += in_split_units(variance(unsplit_));
     }
     *this = {};
 }

@@ -113,7 +113,7 @@ std::string ChildProcess::ending() const {
 std::string ChildProcess::take_words() {
     std::string text;
     char part[4096];
-    for (ssize_t count; (count = read(words_, part, sizeof part)) > 0;)
+    for (ssize_t count; (count = ::read(words_, part, sizeof part)) > 0;)
         text.append(part, static_cast<std::size_t>(count));
     return text;
 }

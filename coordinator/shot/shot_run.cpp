@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Seconds within which a killed shot has left its folder.
-constexpr double kFolderPatience = 5.0;
+constexpr double kShotPatience = 5.0;
 /// Seconds for which the end retries writing the index.
 constexpr double kIndexPatience = 1.0;
 
@@ -69,7 +69,7 @@ class ShotRun {
 
     ShotOutcome run() {
         make_folder(shot_.directory, "cannot be the shot's folder");
-        const FolderLock lock(shot_.directory, kFolderPatience, interrupted_);
+        const FolderLock lock(shot_.directory, kShotPatience, interrupted_);
         if (lock.refused())
             throw InputError(Location{shot_.directory.string(), 0, 0}, "another shot is at work in this folder",
                              "wait for it, or name another folder with --run-dir");

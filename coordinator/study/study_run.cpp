@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 constexpr int kMostFailures = 3;
 
 /// Seconds within which a killed study has left its folder.
-constexpr double kFolderPatience = 5.0;
+constexpr double kStudyPatience = 5.0;
 
 struct Interrupted {};
 
@@ -79,7 +79,7 @@ class StudyRun {
 
     StudyOutcome run() {
         fs::create_directories(directory_);
-        const FolderLock lock(directory_, kFolderPatience, interrupted_);
+        const FolderLock lock(directory_, kStudyPatience, interrupted_);
         if (lock.refused())
             throw RunError(directory_.string() +
                            ": another study is at work in this folder; wait for it, or choose another by --dir");

@@ -12,19 +12,19 @@ namespace treefarm {
 namespace {
 
 /// Where and how large: the same geometry must behave the same.
-struct ScaleAndOffset {
+struct OffsetAndScale {
     float scale;
     Vec3 offset;  ///< in units of `scale`
 };
 
-const ScaleAndOffset kScalesAndOffsets[] = {{1.0f, Vec3(0.0f)},
+const OffsetAndScale kOffsetsAndScales[] = {{1.0f, Vec3(0.0f)},
                                             {1e-4f, Vec3(0.0f)},
                                             {1e5f, Vec3(0.0f)},
                                             {1.0f, Vec3(1000.0f, -700.0f, 300.0f)},
                                             {1e-4f, Vec3(1000.0f, -700.0f, 300.0f)},
                                             {1e5f, Vec3(-300.0f, 1000.0f, 800.0f)}};
 
-class Offset : public testing::TestWithParam<ScaleAndOffset> {
+class Offset : public testing::TestWithParam<OffsetAndScale> {
   protected:
     Vec3 at(const Vec3& p) const { return (p + GetParam().offset) * GetParam().scale; }
     float length(float l) const { return l * GetParam().scale; }
@@ -274,7 +274,7 @@ TEST_P(Offset, ShadowSegmentsBetweenTwoSurfacesAreFree) {
     figure_of(40000);
 }
 
-INSTANTIATE_TEST_SUITE_P(Positions, Offset, testing::ValuesIn(kScalesAndOffsets));
+INSTANTIATE_TEST_SUITE_P(Positions, Offset, testing::ValuesIn(kOffsetsAndScales));
 
 /// 13 | Concentric shells a hundred-thousandth of their radius apart
 /// Others: at planetary coordinates the offset was kilometres, past the next surface (huira #46).

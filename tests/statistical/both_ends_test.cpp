@@ -36,8 +36,8 @@ Scene hall(bool with_points) {
     return scene;
 }
 
-LocalRender render(const Scene& scene, const char* type, std::uint32_t spp, LightSelection how, bool next_event = true,
-                   Rule subpaths = Rule::always) {
+LocalRender render_both_ends(const Scene& scene, const char* type, std::uint32_t spp, LightSelection how,
+                             bool next_event = true, Rule subpaths = Rule::always) {
     Job job;
     job.integrator.type = type;
     job.integrator.hide_emitters = true;
@@ -59,9 +59,9 @@ double last_pass_variance(const LocalRender& run) {
 /// brought to the image.
 TEST(ManyLamps, LearnedSharesChangeNoImage) {
     const Scene scene = hall(true);
-    const Rendered path = test::rendered(render(scene, "reference", 124, LightSelection::tree), scene.film);
+    const Rendered path = test::rendered(render_both_ends(scene, "reference", 124, LightSelection::tree), scene.film);
     for (const char* const type : {"light", "bidirectional"}) {
-        const LocalRender run = render(scene, type, 124, LightSelection::learned);
+        const LocalRender run = render_both_ends(scene, type, 124, LightSelection::learned);
         ASSERT_GT(run.plans.size(), 2u);
         EXPECT_TRUE(run.plans.front().emission.empty());
         EXPECT_GE(run.plans.back().emission.size(), 27u) << type;
@@ -73,17 +73,18 @@ TEST(ManyLamps, LearnedSharesChangeNoImage) {
 /// alike, however differently they are chosen: weights still sum to one, since all techniques do.
 TEST(ManyLamps, LightsWithoutExtentAlone) {
     const Scene scene = hall(true);
-    const Rendered path = test::rendered(render(scene, "reference", 252, LightSelection::tree), scene.film);
-    expect_same_image(test::rendered(render(scene, "bidirectional", 124, LightSelection::learned, false), scene.film),
-                      path, "delta alone", 0.03);
+    const Rendered path = test::rendered(render_both_ends(scene, "reference", 252, LightSelection::tree), scene.film);
+    expect_same_image(
+        test::rendered(render_both_ends(scene, "bidirectional", 124, LightSelection::learned, false), scene.film), path,
+        "delta alone", 0.03);
 }
 
 /// One of nine bays is seen: paths that start elsewhere bring nothing.
 TEST(ManyLamps, LightPathsStartWhereTheyAreSeen) {
     const Scene scene = hall(false);
     for (const char* const type : {"light", "bidirectional"}) {
-        const LocalRender by_power = render(scene, type, 60, LightSelection::tree),
-                          learned = render(scene, type, 60, LightSelection::learned);
+        const LocalRender by_power = render_both_ends(scene, type, 60, LightSelection::tree),
+                          learned = render_both_ends(scene, type, 60, LightSelection::learned);
         EXPECT_TRUE(by_power.plans.back().emission.empty());
         const double gain = last_pass_variance(by_power) / last_pass_variance(learned);
         EXPECT_GT(gain, type[0] == 'l' ? 3.0 : 0.9) << type;  // where next event finds all, there is little to gain
@@ -98,7 +99,8 @@ TEST(LightSubpaths, AreGivenUpWhereTheyDoNotPay) {
     scene.emitters.push_back({ConstantEmitter{Rgb(0.4f, 0.5f, 0.7f)}, {}});
     scene.camera = test::look_at({1.2f, 1.6f, -3.5f}, {0, 0.8f, 0.3f}, {0, 1, 0}, 0.45f);
     test::set_film(scene, 32, 32);
-    const LocalRender run = render(scene, "bidirectional", 60, LightSelection::learned, true, Rule::while_it_pays);
+    const LocalRender run =
+        render_both_ends(scene, "bidirectional", 60, LightSelection::learned, true, Rule::while_it_pays);
     EXPECT_TRUE(run.plans.front().light_subpaths);
     EXPECT_FALSE(run.plans.back().light_subpaths);
     EXPECT_EQ(run.plans.back().layers.splats.pixels, 0u);
@@ -106,7 +108,7 @@ TEST(LightSubpaths, AreGivenUpWhereTheyDoNotPay) {
     EXPECT_LT(light_subpath_gain(run.stats[2]).at_equal_cost(), 0.9);
     EXPECT_NEAR(light_subpath_gain(run.stats[2]).mean_ratio, 1, 0.05);
     EXPECT_EQ(light_subpath_gain(run.stats.back()).noise, 0) << "nothing to compare";
-    const Rendered path = test::rendered(render(scene, "reference", 60, LightSelection::tree), scene.film);
+    const Rendered path = test::rendered(render_both_ends(scene, "reference", 60, LightSelection::tree), scene.film);
     expect_same_image(test::rendered(run, scene.film), path, "open sky", 0.02);
 }
 
@@ -114,8 +116,9 @@ TEST(LightSubpaths, AreGivenUpWhereTheyDoNotPay) {
 TEST(LightSubpaths, PathsAloneAreThoseOfPathTracing) {
     Scene scene = test::cornell_box(1.0f, Vec3(0.0f));
     test::set_film(scene, 32, 32);
-    const LocalRender both = render(scene, "bidirectional", 60, LightSelection::tree, true, Rule::while_it_pays),
-                      path = render(scene, "reference", 60, LightSelection::tree);
+    const LocalRender both =
+                          render_both_ends(scene, "bidirectional", 60, LightSelection::tree, true, Rule::while_it_pays),
+                      path = render_both_ends(scene, "reference", 60, LightSelection::tree);
     ASSERT_TRUE(both.plans[2].light_subpaths);
     const LightSubpathGain gain = light_subpath_gain(both.stats[2]);
     const double shown =
@@ -134,7 +137,8 @@ TEST_P(Caustics, KeepLightSubpathsWhereCameraPathsHaveMetNoneYet) {
     const Scene scene = load_scene(test::own_scene(GetParam()), {}, false, 64, 48).scene;
     int kept = 0, looked_quiet = 0;
     for (const std::uint32_t spp : {24u, 26u, 28u, 30u}) {  // each has a seed of its own
-        const LocalRender run = render(scene, "bidirectional", spp, LightSelection::learned, true, Rule::while_it_pays);
+        const LocalRender run =
+            render_both_ends(scene, "bidirectional", spp, LightSelection::learned, true, Rule::while_it_pays);
         kept += run.plans.back().light_subpaths;
         const LightSubpathSums& sums = run.stats[2].light_subpaths;
         LightSubpathGain seen = light_subpath_gain(run.stats[2]);

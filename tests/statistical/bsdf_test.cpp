@@ -11,10 +11,10 @@
 namespace treefarm {
 namespace {
 
-constexpr double kSignificance = 1e-4;
-constexpr std::uint32_t kSamples = 500000;
+constexpr double kBsdfSignificance = 1e-4;
+constexpr std::uint32_t kBsdfSamples = 500000;
 
-Vec2 uniform(std::uint32_t i) {
+Vec2 uniform_draw(std::uint32_t i) {
     const Draw r = draw({7, i, 0}, 0, Stream::scatter);
     return {to_unit(r[2]), to_unit(r[3])};
 }
@@ -28,16 +28,16 @@ TEST(BsdfDistribution, SamplesFollowTheDensity) {
         for (const Vec3& wo : {Vec3(0, 0, 1), normalize(Vec3(1, 0.3f, 0.01f)), normalize(Vec3(-0.2f, 0.5f, -0.6f))}) {
             const PlainDiffuse bsdf = grey(0.5f, twosided);
             const auto sample = [&](std::uint32_t i, Vec3& d) {
-                const BsdfSample s = bsdf.sample(wo, {0.0f, uniform(i)});
+                const BsdfSample s = bsdf.sample(wo, {0.0f, uniform_draw(i)});
                 d = s.wi;
                 return s.pdf > 0.0f;
             };
             const auto result = test::test_directions(
-                sample, [&](const Vec3& d) { return bsdf.value(wo, d).pdf; }, kSamples);
+                sample, [&](const Vec3& d) { return bsdf.value(wo, d).pdf; }, kBsdfSamples);
             const bool visible = wo.z > 0.0f || twosided;
             EXPECT_NEAR(result.integral, visible ? 1.0 : 0.0, 1e-3);
             EXPECT_NEAR(result.success, visible ? 1.0 : 0.0, 1e-5);
-            EXPECT_GT(result.p_value, kSignificance);
+            EXPECT_GT(result.p_value, kBsdfSignificance);
         }
 }
 
@@ -45,7 +45,7 @@ TEST(BsdfDistribution, SamplesAndDensityAreOfTheSameBsdf) {
     const PlainDiffuse bsdf = grey(0.7f, true);
     const Vec3 wo = normalize(Vec3(0.3f, 0.1f, -0.8f));
     for (std::uint32_t i = 0; i < 10000; ++i) {
-        const BsdfSample s = bsdf.sample(wo, {0.0f, uniform(i)});
+        const BsdfSample s = bsdf.sample(wo, {0.0f, uniform_draw(i)});
         if (!(s.pdf > 0.0f)) continue;
         ASSERT_EQ(s.pdf, bsdf.value(wo, s.wi).pdf);
         ASSERT_EQ(s.f_cos, bsdf.value(wo, s.wi).f_cos);
@@ -88,10 +88,10 @@ TEST(GuideDistribution, SamplesFollowTheDensity) {
             return s.pdf > 0.0f;
         };
         const auto density = [&](const Vec3& d) { return guide.pdf(region, direction_to_code(d)); };
-        const auto result = test::test_directions(sample, density, kSamples, 16, 64);
+        const auto result = test::test_directions(sample, density, kBsdfSamples, 16, 64);
         EXPECT_NEAR(result.integral, 1.0, 1e-3);
         EXPECT_EQ(result.success, 1.0);
-        EXPECT_GT(result.p_value, kSignificance) << "region " << region;
+        EXPECT_GT(result.p_value, kBsdfSignificance) << "region " << region;
     }
 }
 
@@ -178,9 +178,9 @@ TEST(GuideDistribution, MixtureFollowsItsDensity) {
             return local.z > 0.0f ? samples.pdf(surface.bsdf().value(surface.wo(), local).pdf, direction_to_code(d))
                                   : 0.0f;
         };
-        const auto result = test::test_directions(sample, density, kSamples, 16, 64);
+        const auto result = test::test_directions(sample, density, kBsdfSamples, 16, 64);
         EXPECT_NEAR(result.integral, result.success, 3e-3);
-        EXPECT_GT(result.p_value, kSignificance) << "fraction " << fraction;
+        EXPECT_GT(result.p_value, kBsdfSignificance) << "fraction " << fraction;
     }
 }
 
@@ -206,9 +206,9 @@ TEST(GuideDistribution, MixtureWithAViewFollowsItsDensity) {
             return local.z > 0.0f ? samples.pdf(surface.bsdf().value(surface.wo(), local).pdf, direction_to_code(d))
                                   : 0.0f;
         };
-        const auto result = test::test_directions(sample, density, kSamples, 16, 64);
+        const auto result = test::test_directions(sample, density, kBsdfSamples, 16, 64);
         EXPECT_NEAR(result.integral, result.success, 3e-3);
-        EXPECT_GT(result.p_value, kSignificance) << guidance.bsdf_fraction << ' ' << guidance.view_fraction;
+        EXPECT_GT(result.p_value, kBsdfSignificance) << guidance.bsdf_fraction << ' ' << guidance.view_fraction;
     }
 }
 
@@ -229,11 +229,11 @@ TEST(GuideDistribution, SampleAndDensityOfTheMixtureAgree) {
 TEST(BsdfDistribution, TheTestCanFail) {
     const PlainDiffuse bsdf = grey(0.5f, false);
     const auto sample = [&](std::uint32_t i, Vec3& d) {
-        d = bsdf.sample(Vec3(0, 0, 1), {0.0f, uniform(i)}).wi;
+        d = bsdf.sample(Vec3(0, 0, 1), {0.0f, uniform_draw(i)}).wi;
         return true;
     };
     const auto tilted = [](const Vec3& d) { return d.z > 0 ? (d.z + 0.02 * d.x) / M_PI : 0.0; };
-    EXPECT_LT(test::test_directions(sample, tilted, kSamples).p_value, kSignificance);
+    EXPECT_LT(test::test_directions(sample, tilted, kBsdfSamples).p_value, kBsdfSignificance);
 }
 
 }  // namespace

@@ -13,13 +13,13 @@
 namespace treefarm {
 namespace {
 
-struct Case {
+struct CameraCase {
     std::string name;
     Camera camera;
     Film film;
 };
 
-std::vector<Case> cases() {
+std::vector<CameraCase> camera_cases() {
     Film film;
     film.width = 12;
     film.height = 9;
@@ -66,7 +66,7 @@ Draw numbers(std::uint32_t i, Stream stream) {
 }
 
 TEST(CameraImportance, FindsTheFilmPositionOfItsRays) {
-    for (const Case& c : cases()) {
+    for (const CameraCase& c : camera_cases()) {
         const CameraRays rays(c.camera, c.film);
         const CameraImportance importance(c.camera, c.film);
         const FilterSampler filter(c.film);
@@ -93,7 +93,7 @@ TEST(CameraImportance, FindsTheFilmPositionOfItsRays) {
 TEST(CameraImportance, IsTheDensityOfRaysOnAPlane) {
     constexpr int kCells = 6;
     constexpr double kHalf = 2.5, kCellArea = 4 * kHalf * kHalf / (kCells * kCells);
-    for (const Case& c : cases()) {
+    for (const CameraCase& c : camera_cases()) {
         const CameraRays rays(c.camera, c.film);
         const CameraImportance importance(c.camera, c.film);
         std::array<double, kCells * kCells> met{}, expected{}, squares{};
@@ -137,7 +137,7 @@ TEST(CameraImportance, IsTheDensityOfRaysOnAPlane) {
 
 /// The density per steradian is the importance without distance and cosine.
 TEST(CameraImportance, DensityAndImportanceAgree) {
-    for (const Case& c : cases()) {
+    for (const CameraCase& c : camera_cases()) {
         const CameraImportance importance(c.camera, c.film);
         const Vec3 p(0.1f, 0.2f, -0.3f);
         const FilmConnection to = importance.connect(p, {1u << 30, 1u << 29, 0, 0});
@@ -252,7 +252,7 @@ TEST(PixelPicker, EveryPixelGetsItsFilter) {
 /// A pixel of a panorama takes what its own rays see: those of its border pixels go on beyond pole and side.
 TEST(PixelPicker, IsWhereTheCameraLooks) {
     for (const auto& [kind, radius] : kFilters)
-        for (const Case& c : cases()) {
+        for (const CameraCase& c : camera_cases()) {
             Film film = c.film;
             film.filter = kind;
             film.filter_radius = radius;

@@ -17,7 +17,7 @@ namespace {
 constexpr double kPiD = M_PI;
 
 /// A kind of emitter, the scene that holds it alone, and watts that leave it (mean of the channels); 0: no formula.
-struct Case {
+struct EmissionCase {
     std::string name;
     Scene scene;
     double power = 0;
@@ -30,16 +30,16 @@ void add_receiver(Scene& scene) {
                     Rgb(0.0f), "receiver");
 }
 
-Case lamp(const std::string& name, decltype(Shape::geometry) geometry, double area) {
-    Case made{name, {}, kPiD * area * 2.0};
+EmissionCase lamp(const std::string& name, decltype(Shape::geometry) geometry, double area) {
+    EmissionCase made{name, {}, kPiD * area * 2.0};
     add_receiver(made.scene);
     test::add_shape(made.scene, std::move(geometry), kNone, Rgb(1.0f, 2.0f, 3.0f));
     return made;
 }
 
 template <class Kind>
-Case without_shape(const std::string& name, const Kind& kind, double power) {
-    Case made{name, {}, power};
+EmissionCase without_shape(const std::string& name, const Kind& kind, double power) {
+    EmissionCase made{name, {}, power};
     add_receiver(made.scene);
     made.scene.emitters.push_back({kind, {}});
     return made;
@@ -82,8 +82,8 @@ double section(const Scene& scene) {
 }
 
 /// Every kind of emitter.
-std::vector<Case> cases() {
-    std::vector<Case> all;
+std::vector<EmissionCase> emission_cases() {
+    std::vector<EmissionCase> all;
     all.push_back(lamp("rectangle", test::quad({-0.5f, -0.7f, 1.5f}, {0, 1.4f, 0}, {1, 0, 0}), 1.4));
     all.push_back(lamp("box", test::box(Vec3(-0.4f, -0.3f, 0.8f), Vec3(0.4f, 0.5f, 1.2f), false),
                        2 * (0.8 * 0.8 + 0.8 * 0.4 + 0.8 * 0.4)));
@@ -101,7 +101,7 @@ std::vector<Case> cases() {
     cylinder.meridian = Vec3(0, 1, 0);
     all.push_back(lamp("cylinder", cylinder, 2 * kPiD * 0.2 * std::sqrt(1.04)));
 
-    Case textured = lamp("textured rectangle", test::quad({-0.5f, -0.7f, 1.5f}, {0, 1.4f, 0}, {1, 0, 0}), 0);
+    EmissionCase textured = lamp("textured rectangle", test::quad({-0.5f, -0.7f, 1.5f}, {0, 1.4f, 0}, {1, 0, 0}), 0);
     std::get<Mesh>(textured.scene.shapes[1].geometry).uvs = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
     std::get<AreaEmitter>(textured.scene.emitters[0].kind).radiance.texture = add_bitmap(textured.scene);
     textured.power = 0;
@@ -120,7 +120,7 @@ std::vector<Case> cases() {
     all.push_back(without_shape("wide spot", spot, spot_power(2.0, 2.5, 2.5)));
     spot.cutoff = 0.6f;
     spot.beam = 0.35f;
-    Case slide = without_shape("spot with a slide", spot, 0);
+    EmissionCase slide = without_shape("spot with a slide", spot, 0);
     auto& with_slide = std::get<SpotEmitter>(slide.scene.emitters[0].kind);
     with_slide.y_axis = normalize(cross(spot.axis, Vec3(1, 0, 0)));
     with_slide.x_axis = cross(with_slide.y_axis, spot.axis);
@@ -135,14 +135,14 @@ std::vector<Case> cases() {
     projector.half_height = 0.3f;
     projector.irradiance = ColorInput(Rgb(5.0f));
     all.push_back(without_shape("projector", projector, 5.0 * 4 * 0.7 * 0.3));
-    Case picture = without_shape("projector with a picture", projector, 0);
+    EmissionCase picture = without_shape("projector with a picture", projector, 0);
     std::get<ProjectorEmitter>(picture.scene.emitters[0].kind).irradiance.texture = add_bitmap(picture.scene);
     all.push_back(std::move(picture));
     all.push_back(without_shape("parallel", DirectionalEmitter{normalize(Vec3(0.3f, 0.2f, -1)), Rgb(1, 2, 3)}, 0));
     all.back().power = section(all.back().scene) * 2;
     all.push_back(without_shape("constant", ConstantEmitter{Rgb(1, 2, 3)}, 0));
     all.back().power = section(all.back().scene) * 2 * kPiD * 4;
-    Case sky{"image", {}, 0};
+    EmissionCase sky{"image", {}, 0};
     add_receiver(sky.scene);
     EnvironmentEmitter image;
     image.image = add_picture(sky.scene, 16, 8);
@@ -150,7 +150,7 @@ std::vector<Case> cases() {
     sky.scene.emitters.push_back({ConstantEmitter{Rgb(0.2f)}, {}});
     all.push_back(std::move(sky));
 
-    Case together = lamp("several", Sphere{Vec3(0.3f, 0.1f, 1.0f), 0.2f, false}, 4 * kPiD * 0.04);
+    EmissionCase together = lamp("several", Sphere{Vec3(0.3f, 0.1f, 1.0f), 0.2f, false}, 4 * kPiD * 0.04);
     together.scene.emitters.push_back({PointEmitter{{-0.7f, 0.3f, 0.5f}, Rgb(0.5f)}, {}});
     together.power += 4 * kPiD * 0.5;
     all.push_back(std::move(together));
@@ -188,7 +188,7 @@ class EveryKind : public testing::TestWithParam<std::size_t> {};
 /// Emitters whose power has a formula; what others bring to a surface is tested below.
 TEST(EmissionPower, IsTheMeanWeight) {
     int compared = 0;
-    for (const Case& given : cases()) {
+    for (const EmissionCase& given : emission_cases()) {
         if (given.power == 0) continue;
         const TraceScene scene(given.scene, Job());
         constexpr std::uint32_t kSamples = 100'000;
@@ -206,7 +206,7 @@ TEST(EmissionPower, IsTheMeanWeight) {
 /// Watts on the parts of a square, by rays of the emitters and by sampling the emitters from there: where rays start
 /// and where they go.
 TEST_P(EveryKind, RaysBringWhatNextEventFinds) {
-    const Case given = cases()[GetParam()];
+    const EmissionCase given = emission_cases()[GetParam()];
     const TraceScene scene(given.scene, Job());
     constexpr std::uint32_t kSamples = 200'000;
     std::array<Sum, kCells * kCells> by_rays, by_next_event;
@@ -246,7 +246,7 @@ TEST_P(EveryKind, RaysBringWhatNextEventFinds) {
 
 /// Densities that a sample says are those that are asked for, and next event's from where the ray arrives.
 TEST_P(EveryKind, DensitiesAgree) {
-    const Case given = cases()[GetParam()];
+    const EmissionCase given = emission_cases()[GetParam()];
     Job job;
     job.integrator.light_selection = LightSelection::power;  // as emission does
     const TraceScene scene(given.scene, job);
@@ -289,15 +289,16 @@ TEST_P(EveryKind, DensitiesAgree) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Emission, EveryKind, testing::Range<std::size_t>(0, cases().size()), [](const auto& info) {
-    std::string name = cases()[info.param].name;
-    std::replace(name.begin(), name.end(), ' ', '_');
-    return name;
-});
+INSTANTIATE_TEST_SUITE_P(Emission, EveryKind, testing::Range<std::size_t>(0, emission_cases().size()),
+                         [](const auto& info) {
+                             std::string name = emission_cases()[info.param].name;
+                             std::replace(name.begin(), name.end(), ' ', '_');
+                             return name;
+                         });
 
-const Case& named(const std::string& name) {
-    static const std::vector<Case> all = cases();
-    return *std::find_if(all.begin(), all.end(), [&](const Case& c) { return c.name == name; });
+const EmissionCase& named(const std::string& name) {
+    static const std::vector<EmissionCase> all = emission_cases();
+    return *std::find_if(all.begin(), all.end(), [&](const EmissionCase& c) { return c.name == name; });
 }
 
 void expect_directions(const std::string& name, const std::function<double(const Vec3&)>& density) {

@@ -8,7 +8,7 @@
 namespace treefarm {
 namespace {
 
-constexpr double kSignificance = 1e-4;
+constexpr double kSkySignificance = 1e-4;
 
 TextureImage black(int width, int height) {
     TextureImage image;
@@ -74,7 +74,7 @@ void expect_agreement(const TextureImage& image, const std::string& what, bool r
     // Cells that samples hardly reach: rounding moves a few across their edges.
     for (std::size_t i = 0; i < counts.size(); ++i)
         if (expected[i] < 1 && counts[i] < 5) counts[i] = expected[i] = 0;
-    EXPECT_GT(test::chi_square_test(counts, expected), kSignificance) << what;
+    EXPECT_GT(test::chi_square_test(counts, expected), kSkySignificance) << what;
 }
 
 TEST(EnvironmentMap, OneBrightTexelAnywhere) {

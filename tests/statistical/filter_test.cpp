@@ -10,7 +10,7 @@
 namespace treefarm {
 namespace {
 
-constexpr double kSignificance = 1e-4;
+constexpr double kFilterSignificance = 1e-4;
 
 double filter_p_value(const Film& film, const std::function<double(double)>& shape) {
     const FilterSampler sampler(film);
@@ -35,14 +35,14 @@ double filter_p_value(const Film& film, const std::function<double(double)>& sha
 
 TEST(FilterDistribution, Box) {
     Film film;
-    EXPECT_GT(filter_p_value(film, [](double) { return 1.0; }), kSignificance);
+    EXPECT_GT(filter_p_value(film, [](double) { return 1.0; }), kFilterSignificance);
 }
 
 TEST(FilterDistribution, Tent) {
     Film film;
     film.filter = PixelFilter::tent;
     film.filter_radius = 1.25f;
-    EXPECT_GT(filter_p_value(film, [](double x) { return 1.25 - std::abs(x); }), kSignificance);
+    EXPECT_GT(filter_p_value(film, [](double x) { return 1.25 - std::abs(x); }), kFilterSignificance);
 }
 
 TEST(FilterDistribution, Gaussian) {
@@ -52,7 +52,7 @@ TEST(FilterDistribution, Gaussian) {
         film.filter_stddev = stddev;
         film.filter_radius = 2.0f;
         const auto gauss = [&](double x) { return std::exp(-x * x / (2.0 * stddev * stddev)); };
-        EXPECT_GT(filter_p_value(film, [&](double x) { return gauss(x) - gauss(2.0); }), kSignificance) << stddev;
+        EXPECT_GT(filter_p_value(film, [&](double x) { return gauss(x) - gauss(2.0); }), kFilterSignificance) << stddev;
     }
 }
 
@@ -77,7 +77,7 @@ double lobes(std::size_t film, double x) {
 TEST(FilterDistribution, NegativeLobesAreDrawnByTheirAbsoluteValue) {
     const std::vector<Film> films = films_with_lobes();
     for (std::size_t f = 0; f < films.size(); ++f)
-        EXPECT_GT(filter_p_value(films[f], [&](double x) { return std::abs(lobes(f, x)); }), kSignificance) << f;
+        EXPECT_GT(filter_p_value(films[f], [&](double x) { return std::abs(lobes(f, x)); }), kFilterSignificance) << f;
 }
 
 /// A pixel at distance `edge` from a step shows the filter's integral on its bright side.
@@ -114,7 +114,7 @@ TEST(FilterDistribution, TheTestCanFail) {
     Film film;
     film.filter = PixelFilter::gaussian;
     film.filter_radius = 2.0f;
-    EXPECT_LT(filter_p_value(film, [](double x) { return std::exp(-x * x / (2 * 0.52 * 0.52)); }), kSignificance);
+    EXPECT_LT(filter_p_value(film, [](double x) { return std::exp(-x * x / (2 * 0.52 * 0.52)); }), kFilterSignificance);
 }
 
 }  // namespace

@@ -23,8 +23,8 @@
 namespace treefarm {
 namespace {
 
-constexpr double kSignificance = 1e-4 / 8;  // models of one guide
-constexpr std::uint32_t kSamples = 1 << 19;
+constexpr double kGuideSignificance = 1e-4 / 8;  // models of one guide
+constexpr std::uint32_t kGuideSamples = 1 << 19;
 
 template <class List>
 struct TypesOf;
@@ -118,9 +118,9 @@ TYPED_TEST(GuideLaws, DirectionsFollowTheirDensityWhichIntegratesToOne) {
             return s.pdf > 0.0f;
         };
         const auto density = [&, at = region](const Vec3& d) { return double(guide.pdf(at, direction_to_code(d))); };
-        const auto result = test::test_directions(sample, density, kSamples, 16, 64);
+        const auto result = test::test_directions(sample, density, kGuideSamples, 16, 64);
         EXPECT_NEAR(result.integral, result.success, 1e-3) << name;
-        EXPECT_GT(result.p_value, kSignificance) << name;
+        EXPECT_GT(result.p_value, kGuideSignificance) << name;
         for (std::uint32_t i = 0; i < 4096; ++i) {
             const auto s = drawn(i);
             ASSERT_EQ(s.pdf, guide.pdf(region, s.code)) << name << ": drawn from another density than it is weighed by";
@@ -168,7 +168,7 @@ TYPED_TEST(GuideLaws, TheMixtureEstimatesIntegrals) {
         guidance.bsdf_fraction = 0.3f;
         auto scatter = std::make_unique<typename Walk::template ScatterBatch<true, true>>();
         Moments all, tilted, half;
-        for (std::uint32_t i = 0; i < kSamples; ++i) {
+        for (std::uint32_t i = 0; i < kGuideSamples; ++i) {
             const Draw random = draw({6, i, 0}, 0, Stream::scatter);
             const Vec3 cosine = square_to_cosine_hemisphere({to_unit(random[2]), to_unit(random[3])});
             typename Walk::Scatter s;

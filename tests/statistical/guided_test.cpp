@@ -13,7 +13,7 @@
 namespace treefarm {
 namespace {
 
-struct Case {
+struct GuidedCase {
     const char* scene;
     NextEvent next_event;
     MisHeuristic mis = MisHeuristic::power;
@@ -25,20 +25,20 @@ struct Case {
     float bootstrap = kUsualBootstrap;
 };
 
-void PrintTo(const Case& c, std::ostream* out) {
+void PrintTo(const GuidedCase& c, std::ostream* out) {
     *out << c.scene << ", next event " << static_cast<int>(c.next_event) << ", MIS " << static_cast<int>(c.mis)
          << ", candidates " << c.candidates << " to depth " << c.candidate_depth << ", light selection "
          << static_cast<int>(c.light_selection) << ", splitting " << c.splitting << ", guide "
          << static_cast<int>(c.type) << ", bootstrap " << c.bootstrap;
 }
 
-struct Estimate {
+struct GuidedEstimate {
     RgbImage mean, variance;
 };
 
-Estimate render(const Scene& scene, const Job& job) {
+GuidedEstimate render_guided(const Scene& scene, const Job& job) {
     const test::LocalRender run = test::render_locally(scene, job);
-    Estimate e{RgbImage(scene.film.width, scene.film.height), RgbImage(scene.film.width, scene.film.height)};
+    GuidedEstimate e{RgbImage(scene.film.width, scene.film.height), RgbImage(scene.film.width, scene.film.height)};
     for (std::size_t p = 0; p < e.mean.pixels.size(); ++p) {
         e.mean.pixels[p] = Rgb(run.image.mean[p]);
         e.variance.pixels[p] = Rgb(run.image.variance[p]);
@@ -46,7 +46,7 @@ Estimate render(const Scene& scene, const Job& job) {
     return e;
 }
 
-void expect_same(const Estimate& a, const Estimate& b) {
+void expect_same_estimate(const GuidedEstimate& a, const GuidedEstimate& b) {
     const ZTestInput input{a.mean, b.mean, &a.variance, &b.variance};
     const BlockZTest blocks = block_z_test(input);
     EXPECT_TRUE(blocks.pass) << "worst block z " << blocks.max_abs_z << " at " << blocks.worst_x << ", "
@@ -57,7 +57,7 @@ void expect_same(const Estimate& a, const Estimate& b) {
     EXPECT_GT(blocks.mean_z2, 0.3);  // the variances are honest, not inflated
 }
 
-class GuidedAgainstUnguided : public ::testing::TestWithParam<Case> {};
+class GuidedAgainstUnguided : public ::testing::TestWithParam<GuidedCase> {};
 
 TEST_P(GuidedAgainstUnguided, AgreesInEveryBlock) {
     Scene scene = load_scene(test::own_scene(GetParam().scene), {}, false).scene;
@@ -69,7 +69,7 @@ TEST_P(GuidedAgainstUnguided, AgreesInEveryBlock) {
     job.budget.spp = 512;
     job.guiding.type = GuidingType::none;
     job.integrator.next_event = NextEvent::always;
-    const Estimate unguided = render(scene, job);
+    const GuidedEstimate unguided = render_guided(scene, job);
 
     job.sampler.seed = 2;
     job.budget.spp = 508;
@@ -83,41 +83,41 @@ TEST_P(GuidedAgainstUnguided, AgreesInEveryBlock) {
     job.integrator.light_selection = GetParam().light_selection;
     job.guiding.splitting = GetParam().splitting;
     job.integrator.next_event = GetParam().next_event;
-    const Estimate guided = render(scene, job);
+    const GuidedEstimate guided = render_guided(scene, job);
 
-    expect_same(guided, unguided);
+    expect_same_estimate(guided, unguided);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, GuidedAgainstUnguided,
     ::testing::Values(
-        Case{"cornell-box.xml", NextEvent::never}, Case{"cornell-box.xml", NextEvent::always},
-        Case{"cornell-box.xml", NextEvent::kickstart},
-        Case{"cornell-box.xml", NextEvent::always, MisHeuristic::balance, 1},
-        Case{"cornell-box.xml", NextEvent::never, MisHeuristic::balance, 1, 2},
-        Case{"cornell-box.xml", NextEvent::always, MisHeuristic::balance, 1, 4, 8},
-        Case{"caustic.xml", NextEvent::kickstart, MisHeuristic::power, 1, 3, 8},
-        Case{"diffuse-room.xml", NextEvent::always, MisHeuristic::balance, 1, 1, 1, LightSelection::learned},
-        Case{"features.xml", NextEvent::always, MisHeuristic::balance, 1, 2, 1, LightSelection::learned},
-        Case{"cornell-box.xml", NextEvent::never, MisHeuristic::balance, 1, 1, 1, LightSelection::power, 32},
-        Case{"door-ajar.xml", NextEvent::always, MisHeuristic::power, 1, 2, 8, LightSelection::power, 8},
-        Case{"features.xml", NextEvent::always, MisHeuristic::power, 1, 1, 1, LightSelection::learned, 32},
-        Case{"features.xml", NextEvent::always, MisHeuristic::balance, 1, 1, 1, LightSelection::power},
-        Case{"cornell-box.xml", NextEvent::never, MisHeuristic::balance, 1, 1, 1, LightSelection::power, 1,
-             GuidingType::grid},
-        Case{"features.xml", NextEvent::kickstart, MisHeuristic::balance, 1, 2, 8, LightSelection::learned, 4,
-             GuidingType::grid},
-        Case{"door-ajar.xml", NextEvent::always, MisHeuristic::power, 1, 1, 1, LightSelection::power, 1,
-             GuidingType::grid},
-        Case{"cornell-box.xml", NextEvent::never, MisHeuristic::balance, 1, 1, 1, LightSelection::power, 1,
-             GuidingType::qtable},
-        Case{"features.xml", NextEvent::kickstart, MisHeuristic::balance, 1, 2, 8, LightSelection::learned, 4,
-             GuidingType::qtable},
-        Case{"cornell-box.xml", NextEvent::never, MisHeuristic::balance, 1, 1, 1, LightSelection::power, 1,
-             GuidingType::ppg, 1.0f},
-        Case{"features.xml", NextEvent::always, MisHeuristic::balance, 1, 1, 1, LightSelection::learned, 4,
-             GuidingType::view, 0.9f},
-        Case{"door-ajar.xml", NextEvent::always}, Case{"door-ajar.xml", NextEvent::kickstart}));
+        GuidedCase{"cornell-box.xml", NextEvent::never}, GuidedCase{"cornell-box.xml", NextEvent::always},
+        GuidedCase{"cornell-box.xml", NextEvent::kickstart},
+        GuidedCase{"cornell-box.xml", NextEvent::always, MisHeuristic::balance, 1},
+        GuidedCase{"cornell-box.xml", NextEvent::never, MisHeuristic::balance, 1, 2},
+        GuidedCase{"cornell-box.xml", NextEvent::always, MisHeuristic::balance, 1, 4, 8},
+        GuidedCase{"caustic.xml", NextEvent::kickstart, MisHeuristic::power, 1, 3, 8},
+        GuidedCase{"diffuse-room.xml", NextEvent::always, MisHeuristic::balance, 1, 1, 1, LightSelection::learned},
+        GuidedCase{"features.xml", NextEvent::always, MisHeuristic::balance, 1, 2, 1, LightSelection::learned},
+        GuidedCase{"cornell-box.xml", NextEvent::never, MisHeuristic::balance, 1, 1, 1, LightSelection::power, 32},
+        GuidedCase{"door-ajar.xml", NextEvent::always, MisHeuristic::power, 1, 2, 8, LightSelection::power, 8},
+        GuidedCase{"features.xml", NextEvent::always, MisHeuristic::power, 1, 1, 1, LightSelection::learned, 32},
+        GuidedCase{"features.xml", NextEvent::always, MisHeuristic::balance, 1, 1, 1, LightSelection::power},
+        GuidedCase{"cornell-box.xml", NextEvent::never, MisHeuristic::balance, 1, 1, 1, LightSelection::power, 1,
+                   GuidingType::grid},
+        GuidedCase{"features.xml", NextEvent::kickstart, MisHeuristic::balance, 1, 2, 8, LightSelection::learned, 4,
+                   GuidingType::grid},
+        GuidedCase{"door-ajar.xml", NextEvent::always, MisHeuristic::power, 1, 1, 1, LightSelection::power, 1,
+                   GuidingType::grid},
+        GuidedCase{"cornell-box.xml", NextEvent::never, MisHeuristic::balance, 1, 1, 1, LightSelection::power, 1,
+                   GuidingType::qtable},
+        GuidedCase{"features.xml", NextEvent::kickstart, MisHeuristic::balance, 1, 2, 8, LightSelection::learned, 4,
+                   GuidingType::qtable},
+        GuidedCase{"cornell-box.xml", NextEvent::never, MisHeuristic::balance, 1, 1, 1, LightSelection::power, 1,
+                   GuidingType::ppg, 1.0f},
+        GuidedCase{"features.xml", NextEvent::always, MisHeuristic::balance, 1, 1, 1, LightSelection::learned, 4,
+                   GuidingType::view, 0.9f},
+        GuidedCase{"door-ajar.xml", NextEvent::always}, GuidedCase{"door-ajar.xml", NextEvent::kickstart}));
 
 /// A guided job for a small image.
 Job with_a_fine_tree(std::uint32_t spp) {
@@ -139,11 +139,11 @@ TEST(SeveralCandidates, EstimateTheSameImageOfAGlossyRoom) {
     job.guiding.candidate_depth = 8;
     job.guiding.candidates = 1;
     job.sampler.seed = 1;
-    const Estimate one = render(scene, job);
+    const GuidedEstimate one = render_guided(scene, job);
     for (const int candidates : {2, 4}) {
         job.guiding.candidates = candidates;
         job.sampler.seed = 2;
-        expect_same(render(scene, job), one);
+        expect_same_estimate(render_guided(scene, job), one);
     }
 }
 
@@ -157,10 +157,10 @@ TEST(SplitGlass, EstimatesTheSameImage) {
     Job job = with_a_fine_tree(508);
     job.integrator.split_glass = false;
     job.sampler.seed = 1;
-    const Estimate tossed = render(scene, job);
+    const GuidedEstimate tossed = render_guided(scene, job);
     job.integrator.split_glass = true;
     job.sampler.seed = 2;
-    expect_same(render(scene, job), tossed);
+    expect_same_estimate(render_guided(scene, job), tossed);
 }
 
 }  // namespace

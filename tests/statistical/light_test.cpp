@@ -13,8 +13,8 @@ namespace {
 using test::expect_same_image;
 using test::Rendered;
 
-Rendered render(const Scene& scene, Job job, const char* type, std::uint64_t seed, std::uint32_t spp,
-                bool next_event = true) {
+Rendered render_light_paths(const Scene& scene, Job job, const char* type, std::uint64_t seed, std::uint32_t spp,
+                            bool next_event = true) {
     job.integrator.type = type;
     job.sampler.seed = seed;
     job.budget.spp = spp;
@@ -28,9 +28,10 @@ Rendered render(const Scene& scene, Job job, const char* type, std::uint64_t see
 
 void expect_image_of_paths(const Scene& scene, const Job& job, const std::string& what, std::uint32_t light_spp = 60,
                            std::uint32_t path_spp = 60) {
-    const Rendered path = render(scene, job, "reference", 32, path_spp);
-    expect_same_image(render(scene, job, "light", 31, light_spp), path, what + ", light");
-    expect_same_image(render(scene, job, "bidirectional", 33, light_spp / 2), path, what + ", bidirectional", 0.04);
+    const Rendered path = render_light_paths(scene, job, "reference", 32, path_spp);
+    expect_same_image(render_light_paths(scene, job, "light", 31, light_spp), path, what + ", light");
+    expect_same_image(render_light_paths(scene, job, "bidirectional", 33, light_spp / 2), path,
+                      what + ", bidirectional", 0.04);
 }
 
 Scene small(Scene scene, int width = 32, int height = 32) {
@@ -271,7 +272,7 @@ TEST(Bidirectional, FurnaceByEachTechnique) {
             job.integrator.max_depth = edges;
             job.bidirectional.techniques = std::to_string(light) + "," + std::to_string(edges + 1 - light);
             job.bidirectional.weighted = false;
-            expect_mean(render(scene, job, "bidirectional", 7, 252), std::pow(double(albedo), edges - 1),
+            expect_mean(render_light_paths(scene, job, "bidirectional", 7, 252), std::pow(double(albedo), edges - 1),
                         job.bidirectional.techniques, 0.04);
         }
 }
@@ -284,7 +285,7 @@ TEST(Bidirectional, EachTechniqueFindsAllLightOfItsLength) {
         job.integrator.max_depth = light + camera - 1;
         job.bidirectional.techniques = std::to_string(light) + "," + std::to_string(camera);
         job.bidirectional.weighted = false;
-        return render(scene, job, "bidirectional", 50 + static_cast<std::uint64_t>(light), spp);
+        return render_light_paths(scene, job, "bidirectional", 50 + static_cast<std::uint64_t>(light), spp);
     };
     for (int edges = 2; edges <= 4; ++edges) {
         const Rendered next_event = image(1, edges, 124);
@@ -302,7 +303,7 @@ TEST(Bidirectional, WeightedTechniquesAddUp) {
     scene.emitters.push_back({PointEmitter{{-0.8f, 2.0f, -0.5f}, Rgb(1.0f)}, {}});
     Job job;
     job.integrator.max_depth = 4;
-    const Rendered path = render(scene, job, "reference", 61, 60);
+    const Rendered path = render_light_paths(scene, job, "reference", 61, 60);
     for (const MisHeuristic mis : {MisHeuristic::balance, MisHeuristic::power})
         for (const bool light_image : {true, false})
             for (const bool next_event : {true, false}) {
@@ -311,7 +312,7 @@ TEST(Bidirectional, WeightedTechniquesAddUp) {
                 other.bidirectional.light_image = light_image;
                 const std::string what =
                     std::to_string(int(mis)) + std::to_string(light_image) + std::to_string(next_event);
-                expect_same_image(render(scene, other, "bidirectional", 62, 60, next_event), path, what);
+                expect_same_image(render_light_paths(scene, other, "bidirectional", 62, 60, next_event), path, what);
             }
     Rendered sum = path;
     std::fill(sum.mean.pixels.begin(), sum.mean.pixels.end(), Rgb(0.0f));
@@ -321,7 +322,7 @@ TEST(Bidirectional, WeightedTechniquesAddUp) {
             if (edges == 1 && light == 1) continue;
             job.bidirectional.techniques = std::to_string(light) + "," + std::to_string(edges + 1 - light);
             const Rendered part =
-                render(scene, job, "bidirectional", 70 + static_cast<std::uint64_t>(9 * edges + light), 28);
+                render_light_paths(scene, job, "bidirectional", 70 + static_cast<std::uint64_t>(9 * edges + light), 28);
             for (std::size_t p = 0; p < sum.mean.pixels.size(); ++p) {
                 sum.mean.pixels[p] += part.mean.pixels[p];
                 sum.variance.pixels[p] += part.variance.pixels[p];
@@ -333,8 +334,10 @@ TEST(Bidirectional, WeightedTechniquesAddUp) {
 TEST(Light, FurnaceHasTheExactMean) {
     for (const float albedo : {0.5f, 0.8f}) {
         const Scene scene = test::furnace(albedo, 1.0f, 2.0f, Vec3(0.3f, -0.2f, 0.1f));
-        expect_mean(render(scene, {}, "light", 5, 508), 1.0 / (1.0 - double(albedo)), std::to_string(albedo));
-        expect_mean(render(scene, {}, "bidirectional", 6, 124), 1.0 / (1.0 - double(albedo)), std::to_string(albedo));
+        expect_mean(render_light_paths(scene, {}, "light", 5, 508), 1.0 / (1.0 - double(albedo)),
+                    std::to_string(albedo));
+        expect_mean(render_light_paths(scene, {}, "bidirectional", 6, 124), 1.0 / (1.0 - double(albedo)),
+                    std::to_string(albedo));
     }
 }
 
@@ -349,7 +352,7 @@ void expect_variance_of_replicas(const char* type) {
     std::vector<Rgb64> sum(scene.film.pixel_count(), Rgb64(0.0)), squares = sum;
     double said = 0;
     for (int r = 0; r < kReplicas; ++r) {
-        const Rendered image = render(scene, job, type, 100 + static_cast<std::uint64_t>(r), 28);
+        const Rendered image = render_light_paths(scene, job, type, 100 + static_cast<std::uint64_t>(r), 28);
         for (std::size_t p = 0; p < sum.size(); ++p) {
             const Rgb64 mean(image.mean.pixels[p]);
             sum[p] += mean;

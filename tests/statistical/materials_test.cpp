@@ -10,15 +10,15 @@
 namespace treefarm {
 namespace {
 
-struct Estimate {
+struct MaterialEstimate {
     RgbImage mean, variance;
 };
 
-Estimate render(const Scene& scene, const Job& job) {
+MaterialEstimate render_material(const Scene& scene, const Job& job) {
     const test::LocalRender run = test::render_locally(scene, job);
     for (const TraceStats& stats : run.stats)
         EXPECT_EQ(stats.invalid_samples, 0u);
-    Estimate e{RgbImage(scene.film.width, scene.film.height), RgbImage(scene.film.width, scene.film.height)};
+    MaterialEstimate e{RgbImage(scene.film.width, scene.film.height), RgbImage(scene.film.width, scene.film.height)};
     for (std::size_t p = 0; p < e.mean.pixels.size(); ++p) {
         e.mean.pixels[p] = Rgb(run.image.mean[p]);
         e.variance.pixels[p] = Rgb(run.image.variance[p]);
@@ -53,7 +53,7 @@ class GuidedMaterials : public ::testing::TestWithParam<Guiding> {};
 
 TEST_P(GuidedMaterials, AgreeWithUnguided) {
     const Scene scene = test::glossy_room();
-    const Estimate unguided = render(scene, short_job(1, 512));
+    const MaterialEstimate unguided = render_material(scene, short_job(1, 512));
     Job job = short_job(2, 508);
     job.guiding.type = GetParam().type;
     job.guiding.view_records = GetParam().records;
@@ -62,7 +62,7 @@ TEST_P(GuidedMaterials, AgreeWithUnguided) {
     job.guiding.combination = Combination::fixed;
     job.guiding.spatial_threshold = 1000;
     job.integrator.next_event = GetParam().next_event;
-    const Estimate guided = render(scene, job);
+    const MaterialEstimate guided = render_material(scene, job);
     const BlockZTest blocks = block_z_test({guided.mean, unguided.mean, &guided.variance, &unguided.variance});
     EXPECT_TRUE(blocks.pass) << "worst block z " << blocks.max_abs_z << " at " << blocks.worst_x << ", "
                              << blocks.worst_y;
@@ -86,10 +86,10 @@ INSTANTIATE_TEST_SUITE_P(
 /// Next event finds what scattering finds, and no more, on every material.
 TEST(Materials, NextEventAgreesWithScattering) {
     const Scene scene = test::glossy_room();
-    const Estimate with = render(scene, short_job(3, 512));
+    const MaterialEstimate with = render_material(scene, short_job(3, 512));
     Job job = short_job(4, 2048);
     job.integrator.next_event = NextEvent::never;
-    const Estimate without = render(scene, job);
+    const MaterialEstimate without = render_material(scene, job);
     const BlockZTest blocks = block_z_test({with.mean, without.mean, &with.variance, &without.variance});
     EXPECT_TRUE(blocks.pass) << "worst block z " << blocks.max_abs_z;
 }
@@ -109,7 +109,7 @@ TEST_P(InvisibleBall, CarriesTheRadianceAroundIt) {
         job.integrator.max_depth = 200;
         job.guiding.type = guided ? GuidingType::ppg : GuidingType::none;
         job.guiding.combination = Combination::fixed;
-        const Estimate image = render(scene, job);
+        const MaterialEstimate image = render_material(scene, job);
         double mean = 0, variance = 0;
         for (std::size_t p = 0; p < image.mean.pixels.size(); ++p) {
             mean += double(image.mean.pixels[p].y);

@@ -9,10 +9,10 @@
 namespace treefarm {
 namespace {
 
-constexpr double kSignificance = 1e-5;
-constexpr std::uint32_t kSamples = 40000;
+constexpr double kLobeSignificance = 1e-5;
+constexpr std::uint32_t kLobeSamples = 40000;
 
-BsdfRandom uniform(std::uint32_t i) {
+BsdfRandom uniform_numbers(std::uint32_t i) {
     const Draw r = draw({11, i, 0}, 0, Stream::scatter);
     return {to_unit(r[1]), {to_unit(r[2]), to_unit(r[3])}};
 }
@@ -22,16 +22,16 @@ Vec3 at_cosine(float cos, float azimuth) {
     return normalize(Vec3(sin * std::cos(azimuth), sin * std::sin(azimuth), cos));
 }
 
-struct Case {
+struct LobeCase {
     Microfacets distribution;
     float alpha;
 };
 
-void PrintTo(const Case& c, std::ostream* out) {
+void PrintTo(const LobeCase& c, std::ostream* out) {
     *out << (c.distribution == Microfacets::ggx ? "GGX" : "Beckmann") << " alpha " << c.alpha;
 }
 
-class RoughLobes : public ::testing::TestWithParam<Case> {
+class RoughLobes : public ::testing::TestWithParam<LobeCase> {
   protected:
     /// Tests the lobe about `center` on its side of the surface.
     void test(const Bsdf& bsdf, const Vec3& wo, Vec3 center, float width, const char* what, bool on_base = false) {
@@ -42,16 +42,17 @@ class RoughLobes : public ::testing::TestWithParam<Case> {
         // Reflection at grazing angles is narrow horizontally: facets turn wi by their tilt times cos(wo).
         const double across = double(side > 0.0f ? width * std::max(wo.z, std::min(0.5f * width, 1.0f)) : width);
         const auto sample = [&](std::uint32_t i, Vec3& d) {
-            const BsdfSample s = bsdf.sample(wo, uniform(i));
+            const BsdfSample s = bsdf.sample(wo, uniform_numbers(i));
             d = s.wi;
             return s.pdf > 0.0f && !s.delta && d.z * side > 0.0f;
         };
         const auto density = [&](const Vec3& d) { return d.z * side > 0.0f ? double(bsdf.value(wo, d).pdf) : 0.0; };
         const int sub = wo.z < 0.01f && (width < 0.05f || side < 0.0f) ? 100 : 32;
         const test::LobeTest result =
-            on_base ? test::test_lobe(sample, density, normalize(center), across, double(width), kSamples, 40, 16, true)
-                    : test::test_lobe(sample, density, normalize(center), across, double(width), kSamples, 12, sub);
-        EXPECT_GT(result.p_value, kSignificance) << what << " wo.z " << wo.z;
+            on_base
+                ? test::test_lobe(sample, density, normalize(center), across, double(width), kLobeSamples, 40, 16, true)
+                : test::test_lobe(sample, density, normalize(center), across, double(width), kLobeSamples, 12, sub);
+        EXPECT_GT(result.p_value, kLobeSignificance) << what << " wo.z " << wo.z;
         EXPECT_NEAR(result.integral, result.inside, 0.01) << what << " wo.z " << wo.z;
     }
 
@@ -60,14 +61,14 @@ class RoughLobes : public ::testing::TestWithParam<Case> {
         const float side = center.z;
         if (std::abs(side) < std::min(0.05f, 20 * width)) center.z = 0.0f;
         const auto sample = [&](std::uint32_t i, Vec3& d) {
-            const BsdfSample s = bsdf.sample(wo, uniform(i));
+            const BsdfSample s = bsdf.sample(wo, uniform_numbers(i));
             d = s.wi;
             return s.pdf > 0.0f && !s.delta && d.z * side > 0.0f;
         };
         const auto density = [&](const Vec3& d) { return d.z * side > 0.0f ? double(bsdf.value(wo, d).pdf) : 0.0; };
-        const test::LobeTest result =
-            test::test_lobe(sample, density, normalize(center), double(width), double(width), kSamples, 40, 16, true);
-        EXPECT_GT(result.p_value, kSignificance) << what << " wo.z " << wo.z;
+        const test::LobeTest result = test::test_lobe(sample, density, normalize(center), double(width), double(width),
+                                                      kLobeSamples, 40, 16, true);
+        EXPECT_GT(result.p_value, kLobeSignificance) << what << " wo.z " << wo.z;
         EXPECT_NEAR(result.integral, result.inside, 0.01) << what << " wo.z " << wo.z;
     }
 };
@@ -206,7 +207,7 @@ TEST_P(RoughLobes, Coatings) {
         test(paint.front(), wo, mirror, 2 * alpha, "rough coat", true);
         // Its smooth coat's samples are no part of the density.
         const auto smooth_only = [&](std::uint32_t i, Vec3& d) {
-            const BsdfSample s = metal.front().sample(wo, uniform(i));
+            const BsdfSample s = metal.front().sample(wo, uniform_numbers(i));
             d = s.wi;
             return s.pdf > 0.0f && !s.delta;
         };
@@ -215,19 +216,21 @@ TEST_P(RoughLobes, Coatings) {
         if (center.z < std::min(0.05f, 40 * alpha)) center.z = 0.0f;
         const double width = 3.0 * double(alpha);
         const test::LobeTest result =
-            test::test_lobe(smooth_only, density, normalize(center), width, width, kSamples, 40, 16, true);
-        EXPECT_GT(result.p_value, kSignificance) << "under a smooth coat, wo.z " << wo.z;
+            test::test_lobe(smooth_only, density, normalize(center), width, width, kLobeSamples, 40, 16, true);
+        EXPECT_GT(result.p_value, kLobeSignificance) << "under a smooth coat, wo.z " << wo.z;
         EXPECT_NEAR(result.integral, result.inside, 0.01) << "under a smooth coat, wo.z " << wo.z;
     }
 }
 
 INSTANTIATE_TEST_SUITE_P(Roughness, RoughLobes,
-                         ::testing::Values(Case{Microfacets::ggx, 0.0001f}, Case{Microfacets::beckmann, 0.0001f},
-                                           Case{Microfacets::ggx, 0.001f}, Case{Microfacets::ggx, 0.01f},
-                                           Case{Microfacets::ggx, 0.1f}, Case{Microfacets::ggx, 0.3f},
-                                           Case{Microfacets::ggx, 1.0f}, Case{Microfacets::beckmann, 0.001f},
-                                           Case{Microfacets::beckmann, 0.01f}, Case{Microfacets::beckmann, 0.1f},
-                                           Case{Microfacets::beckmann, 0.3f}, Case{Microfacets::beckmann, 1.0f}));
+                         ::testing::Values(LobeCase{Microfacets::ggx, 0.0001f},
+                                           LobeCase{Microfacets::beckmann, 0.0001f}, LobeCase{Microfacets::ggx, 0.001f},
+                                           LobeCase{Microfacets::ggx, 0.01f}, LobeCase{Microfacets::ggx, 0.1f},
+                                           LobeCase{Microfacets::ggx, 0.3f}, LobeCase{Microfacets::ggx, 1.0f},
+                                           LobeCase{Microfacets::beckmann, 0.001f},
+                                           LobeCase{Microfacets::beckmann, 0.01f},
+                                           LobeCase{Microfacets::beckmann, 0.1f}, LobeCase{Microfacets::beckmann, 0.3f},
+                                           LobeCase{Microfacets::beckmann, 1.0f}));
 
 TEST(RoughLobesTest, CanFail) {
     const test::PreparedMaterial a(
@@ -235,11 +238,12 @@ TEST(RoughLobesTest, CanFail) {
         b(ConductorMaterial{Rgb(0.2f), Rgb(3.0f), Rgb(1.0f), test::rough(Microfacets::ggx, 0.103f, 0.103f)});
     const Vec3 wo = at_cosine(0.7f, 0.0f);
     const auto sample = [&](std::uint32_t i, Vec3& d) {
-        d = a.front().sample(wo, uniform(i)).wi;
+        d = a.front().sample(wo, uniform_numbers(i)).wi;
         return true;
     };
     const auto density = [&](const Vec3& d) { return double(b.front().value(wo, d).pdf); };
-    EXPECT_LT(test::test_lobe(sample, density, {-wo.x, -wo.y, wo.z}, 0.2, 0.2, kSamples).p_value, kSignificance);
+    EXPECT_LT(test::test_lobe(sample, density, {-wo.x, -wo.y, wo.z}, 0.2, 0.2, kLobeSamples).p_value,
+              kLobeSignificance);
 }
 
 TEST(RoughLobesTest, CanFailOnABase) {
@@ -250,16 +254,17 @@ TEST(RoughLobesTest, CanFailOnABase) {
     const Vec3 wo = at_cosine(0.2f, 0.3f);
     const auto p_value = [&](const test::PreparedMaterial& a, const test::PreparedMaterial& b) {
         const auto sample = [&](std::uint32_t i, Vec3& d) {
-            const BsdfSample s = a.front().sample(wo, uniform(i));
+            const BsdfSample s = a.front().sample(wo, uniform_numbers(i));
             d = s.wi;
             return s.pdf > 0.0f && d.z > 0.0f;
         };
         const auto density = [&](const Vec3& d) { return d.z > 0.0f ? double(b.front().value(wo, d).pdf) : 0.0; };
-        return test::test_lobe(sample, density, {-wo.x, -wo.y, wo.z}, 2e-4 * 0.2, 2e-4, kSamples, 40, 16, true).p_value;
+        return test::test_lobe(sample, density, {-wo.x, -wo.y, wo.z}, 2e-4 * 0.2, 2e-4, kLobeSamples, 40, 16, true)
+            .p_value;
     };
-    EXPECT_GT(p_value(plastic(1e-4f, 0.5f), plastic(1e-4f, 0.5f)), kSignificance);
-    EXPECT_LT(p_value(plastic(1e-4f, 0.5f), plastic(1.1e-4f, 0.5f)), kSignificance);
-    EXPECT_LT(p_value(plastic(1e-4f, 0.5f), plastic(1e-4f, 0.6f)), kSignificance) << "shares of coat and base";
+    EXPECT_GT(p_value(plastic(1e-4f, 0.5f), plastic(1e-4f, 0.5f)), kLobeSignificance);
+    EXPECT_LT(p_value(plastic(1e-4f, 0.5f), plastic(1.1e-4f, 0.5f)), kLobeSignificance);
+    EXPECT_LT(p_value(plastic(1e-4f, 0.5f), plastic(1e-4f, 0.6f)), kLobeSignificance) << "shares of coat and base";
 }
 
 }  // namespace

@@ -10,12 +10,12 @@
 namespace treefarm {
 namespace {
 
-using test::expect_irradiance;
+using test::expect_projected_irradiance;
 
-const Vec3 kUp(0, 0, 1);
+const Vec3 kUpwards(0, 0, 1);
 
 /// With something small in it, so that the scene has a size.
-Scene lit_by(const ProjectorEmitter& projector) {
+Scene lit_by_projector(const ProjectorEmitter& projector) {
     Scene scene;
     test::add_shape(scene, test::quad({-1, -1, -2}, {2, 0, 0}, {0, 2, 0}), kNone);
     scene.emitters.push_back({projector, {}});
@@ -28,7 +28,7 @@ struct Projection {
     static constexpr float kHeight = 2.0f;
     ProjectorEmitter projector{Vec3(1, -2, kHeight),    Vec3(0, 0, -1), Vec3(-1, 0, 0), Vec3(0, 1, 0), 0.6f, 0.3f,
                                ColorInput(Rgb(5.0f), 0)};
-    Scene scene = lit_by(projector);
+    Scene scene = lit_by_projector(projector);
 
     Projection() {
         TextureImage image;
@@ -50,13 +50,13 @@ TEST(Projector, ThrowsItsPicture) {
     const Projection thrown;
     for (const float v : {0.01f, 0.3f, 0.7f, 0.99f})
         for (const float u : {0.01f, 0.3f, 0.6f, 0.8f, 0.99f})
-            expect_irradiance(thrown.scene, thrown.point(u, v), kUp, 5.0 * Projection::texel(u, v) / 4.0,
-                              "place " + std::to_string(u) + ", " + std::to_string(v));
+            expect_projected_irradiance(thrown.scene, thrown.point(u, v), kUpwards, 5.0 * Projection::texel(u, v) / 4.0,
+                                        "place " + std::to_string(u) + ", " + std::to_string(v));
     for (const auto& [u, v] : {std::pair{-0.01f, 0.5f}, {1.01f, 0.5f}, {0.5f, -0.01f}, {0.5f, 1.01f}})
-        expect_irradiance(thrown.scene, thrown.point(u, v), kUp, 0.0, "beside the picture");
+        expect_projected_irradiance(thrown.scene, thrown.point(u, v), kUpwards, 0.0, "beside the picture");
     // Behind it, where the picture would be if lines went on.
     const Vec3 behind = thrown.projector.position * 2.0f - thrown.point(0.3f, 0.3f);
-    expect_irradiance(thrown.scene, behind, Vec3(0, 0, -1), 0.0, "behind");
+    expect_projected_irradiance(thrown.scene, behind, Vec3(0, 0, -1), 0.0, "behind");
     // Without a texture, on a tilted surface at other distances: E cos / (z^2 cos_axis).
     ProjectorEmitter plain = thrown.projector;
     plain.irradiance.texture = kNone;
@@ -65,8 +65,9 @@ TEST(Projector, ThrowsItsPicture) {
         plain.position = Vec3(0, 0, static_cast<float>(scale));
         const Vec3 p = Vec3(0.5f, 0.2f, 0.0f) * static_cast<float>(scale);
         const Vec3 wi = normalize(plain.position - p);
-        expect_irradiance(lit_by(plain), p, n, 5.0 * double(dot(n, wi)) / (scale * scale * double(wi.z)),
-                          "scale " + std::to_string(scale));
+        expect_projected_irradiance(lit_by_projector(plain), p, n,
+                                    5.0 * double(dot(n, wi)) / (scale * scale * double(wi.z)),
+                                    "scale " + std::to_string(scale));
     }
 }
 
@@ -92,7 +93,7 @@ TEST(Projector, IsChosenByWhatItThrows) {
     EXPECT_NEAR(count / kSamples, expected, 4.5 * std::sqrt(expected * (1 - expected) / kSamples));
     Hit hit;
     hit.shape = 0;
-    EXPECT_EQ(lights.emitters().pdf_direct(p, kUp, hit), 0.0f) << "nothing but sampling finds it";
+    EXPECT_EQ(lights.emitters().pdf_direct(p, kUpwards, hit), 0.0f) << "nothing but sampling finds it";
 }
 
 }  // namespace

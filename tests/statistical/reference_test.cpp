@@ -18,7 +18,7 @@ namespace {
 
 using test::Rendered;
 
-Rendered render(const Scene& scene, const Job& job) {
+Rendered render_reference(const Scene& scene, const Job& job) {
     return test::rendered(test::render_locally(scene, job), scene.film);
 }
 
@@ -41,10 +41,10 @@ TEST_P(OwnScenes, ReferenceAndUnguidedPathAgree) {
     job.budget.spp = 252;
     job.guiding.type = GuidingType::none;
     job.sampler.seed = 21;
-    const Rendered path = render(loaded.scene, job);
+    const Rendered path = render_reference(loaded.scene, job);
     job.integrator.type = "reference";
     job.sampler.seed = 22;
-    const Rendered reference = render(loaded.scene, job);
+    const Rendered reference = render_reference(loaded.scene, job);
     test::expect_z_tests_pass({path.mean, reference.mean, &path.variance, &reference.variance});
 }
 

@@ -26,7 +26,7 @@ void offer(Candidates<ScatterSample>& candidates, const ScatterSample& s) {
     candidates.offer();
 }
 
-constexpr std::uint32_t kSamples = 400000;
+constexpr std::uint32_t kResamplingSamples = 400000;
 constexpr float kFraction = 0.4f;
 
 /// A diffuse surface under a tree that has learned some other light.
@@ -94,15 +94,15 @@ TEST(Resampling, EstimatesTheIntegralWithAnyNumberOfCandidates) {
     over_sphere([&](const Vec3& d, double area) { exact += average(shaded_point().at(d).f_cos) * light(d) * area; });
     for (const std::uint32_t count : {1u, 2u, 3u, 4u}) {
         double sum = 0, squares = 0;
-        for (std::uint32_t i = 0; i < kSamples; ++i) {
+        for (std::uint32_t i = 0; i < kResamplingSamples; ++i) {
             ScatterSample s;
             const double x =
                 shaded_point().draw_of(count, i, s) ? average(s.f_cos) * light(s.world) / double(s.effective_pdf) : 0.0;
             sum += x;
             squares += x * x;
         }
-        const double mean = sum / kSamples, variance = squares / kSamples - mean * mean;
-        EXPECT_LT(std::abs(mean - exact), 4 * std::sqrt(variance / kSamples)) << count << " candidates";
+        const double mean = sum / kResamplingSamples, variance = squares / kResamplingSamples - mean * mean;
+        EXPECT_LT(std::abs(mean - exact), 4 * std::sqrt(variance / kResamplingSamples)) << count << " candidates";
     }
 }
 
@@ -149,7 +149,7 @@ TEST(Resampling, TheBetterOfTwoFollowsItsDensity) {
         d = s.world;
         return found;
     };
-    const auto result = test::test_directions(sample, density, kSamples, 16, 16);
+    const auto result = test::test_directions(sample, density, kResamplingSamples, 16, 16);
     EXPECT_NEAR(result.integral, result.success, 3e-3);
     EXPECT_GT(result.p_value, 1e-4);
 }

@@ -11,10 +11,10 @@
 namespace treefarm {
 namespace {
 
-constexpr double kSignificance = 1e-4;
-constexpr std::uint32_t kSamples = 500000;
+constexpr double kWarpSignificance = 1e-4;
+constexpr std::uint32_t kWarpSamples = 500000;
 
-Vec2 uniform(std::uint32_t i) {
+Vec2 uniform_pair(std::uint32_t i) {
     const Draw r = draw({11, i, 0}, 0, Stream::scatter);
     return {to_unit(r[2]), to_unit(r[3])};
 }
@@ -22,19 +22,19 @@ Vec2 uniform(std::uint32_t i) {
 template <class Warp, class Density>
 double p_value(Warp warp, Density density) {
     const auto sample = [&](std::uint32_t i, Vec3& d) {
-        d = warp(uniform(i));
+        d = warp(uniform_pair(i));
         return true;
     };
-    return test::test_directions(sample, density, kSamples).p_value;
+    return test::test_directions(sample, density, kWarpSamples).p_value;
 }
 
 /// p-value of points of the unit square against uniformity.
 template <class Map>
 double square_p_value(Map map) {
     constexpr int kBins = 24;
-    std::vector<double> counts(kBins * kBins, 0.0), expected(kBins * kBins, double(kSamples) / (kBins * kBins));
-    for (std::uint32_t i = 0; i < kSamples; ++i) {
-        const Vec2 p = map(uniform(i)) * float(kBins);
+    std::vector<double> counts(kBins * kBins, 0.0), expected(kBins * kBins, double(kWarpSamples) / (kBins * kBins));
+    for (std::uint32_t i = 0; i < kWarpSamples; ++i) {
+        const Vec2 p = map(uniform_pair(i)) * float(kBins);
         counts[static_cast<std::size_t>(std::min(kBins - 1, int(p.y)) * kBins + std::min(kBins - 1, int(p.x)))] += 1;
     }
     return test::chi_square_test(counts, expected);
@@ -43,20 +43,20 @@ double square_p_value(Map map) {
 TEST(WarpDistribution, UniformSphere) {
     EXPECT_GT(
         p_value([](const Vec2& u) { return square_to_sphere(u); }, [](const Vec3&) { return double(kInvFourPi); }),
-        kSignificance);
+        kWarpSignificance);
 }
 
 TEST(WarpDistribution, CosineHemisphere) {
     EXPECT_GT(p_value([](const Vec2& u) { return square_to_cosine_hemisphere(u); },
                       [](const Vec3& d) { return double(cosine_hemisphere_pdf(d.z)); }),
-              kSignificance);
+              kWarpSignificance);
 }
 
 TEST(WarpDistribution, Octahedral) {
     EXPECT_GT(
         p_value([](const Vec2& u) { return square_to_direction(u); }, [](const Vec3&) { return double(kInvFourPi); }),
-        kSignificance);
-    EXPECT_GT(square_p_value([](const Vec2& u) { return direction_to_square(square_to_sphere(u)); }), kSignificance)
+        kWarpSignificance);
+    EXPECT_GT(square_p_value([](const Vec2& u) { return direction_to_square(square_to_sphere(u)); }), kWarpSignificance)
         << "equal areas, tested with the other warp of the sphere";
 }
 
@@ -66,7 +66,7 @@ TEST(WarpDistribution, Disk) {
                   const Vec2 d = square_to_disk(u);
                   return Vec2(d.x * d.x + d.y * d.y, std::atan2(d.y, d.x) / (2 * kPi) + 0.5f);
               }),
-              kSignificance);
+              kWarpSignificance);
 }
 
 TEST(WarpDistribution, Cones) {
@@ -78,7 +78,7 @@ TEST(WarpDistribution, Cones) {
                       const double h = sin2 / (1 + std::sqrt(std::max(0.0, 1 - sin2)));
                       return Vec2(float(h / double(one_minus_cos)), std::atan2(d.y, d.x) / (2 * kPi) + 0.5f);
                   }),
-                  kSignificance)
+                  kWarpSignificance)
             << one_minus_cos;
     }
 }
@@ -90,7 +90,7 @@ TEST(WarpDistribution, Triangle) {
                   const Vec2 b = square_to_triangle(u);
                   return ++flip % 2 ? b : Vec2(1.0f - b.x, 1.0f - b.y);
               }),
-              kSignificance);
+              kWarpSignificance);
 }
 
 TEST(Octahedral, RoundTripsEverywhere) {
@@ -102,7 +102,7 @@ TEST(Octahedral, RoundTripsEverywhere) {
                  {Vec3(e, 0, z), Vec3(0, -e, z), Vec3(-e, e, z), Vec3(1, e, z * e), Vec3(e, -1, -z * e)})
                 directions.push_back(normalize(d));
     for (std::uint32_t i = 0; i < 100000; ++i)
-        directions.push_back(square_to_sphere(uniform(i)));
+        directions.push_back(square_to_sphere(uniform_pair(i)));
     for (const Vec3& d : directions) {
         const Vec2 p = direction_to_square(d);
         ASSERT_TRUE(p.x >= 0.0f && p.x < 1.0f && p.y >= 0.0f && p.y < 1.0f) << d;
@@ -114,7 +114,7 @@ TEST(Octahedral, RoundTripsEverywhere) {
 
 TEST(Octahedral, CodesKeepTheirCells) {
     for (std::uint32_t i = 0; i < 100000; ++i) {
-        const Vec2 u = uniform(i);
+        const Vec2 u = uniform_pair(i);
         const std::uint32_t code = square_to_code(u);
         ASSERT_EQ(compact_bits(code), static_cast<std::uint32_t>(u.x * 65536.0f));
         ASSERT_EQ(compact_bits(code >> 1), static_cast<std::uint32_t>(u.y * 65536.0f));
@@ -128,7 +128,7 @@ TEST(Frame, StaysOrthonormalTowardsTheSouthPole) {
             for (const Vec3& n : {Vec3(e, 0, z), Vec3(e, -e, z), Vec3(0, e, z)})
                 normals.push_back(normalize(n));
     for (std::uint32_t i = 0; i < 10000; ++i)
-        normals.push_back(square_to_sphere(uniform(i)));
+        normals.push_back(square_to_sphere(uniform_pair(i)));
     for (const Vec3& n : normals) {
         const Frame f(n);
         EXPECT_NEAR(dot(cross(f.s, f.t), f.n), 1.0f, 1e-6f) << n;
@@ -145,7 +145,7 @@ TEST(WarpDistribution, TheTestCanFail) {
                       return square_to_sphere({u.x * 0.98f, u.y});
                   },
                   [](const Vec3&) { return double(kInvFourPi); }),
-              kSignificance);
+              kWarpSignificance);
     EXPECT_NEAR(test::chi_square_p_value(18.307, 10), 0.05, 1e-4);
     EXPECT_NEAR(test::chi_square_p_value(3.940, 10), 0.95, 1e-4);
     EXPECT_NEAR(test::normal_p_value(1.959964), 0.05, 1e-6);

@@ -11,7 +11,6 @@
 namespace treefarm {
 namespace {
 
-constexpr std::uint32_t kOne = 1u << kMassBits;
 constexpr double kEvenPart = 0.1;  ///< of the samples: light that no record has found must be found
 
 }  // namespace
@@ -23,7 +22,7 @@ float GridSampler::radiance(std::uint32_t region, std::uint32_t code) const {
 }
 
 void GridCells::begin(GridModel& model, std::size_t cells) {
-    model.mass.assign(cells, kOne / kStrata);
+    model.mass.assign(cells, kWholeMass / kStrata);
 }
 
 double GridCells::learn(const GridModel& model, const CellSums& sums, const RefineSettings& settings,
@@ -52,7 +51,7 @@ void GridCells::write(ByteWriter& out, const GridModel& model) {
 void GridCells::read(ByteReader& in, std::uint32_t regions, GridModel& model) {
     if (std::size_t{regions} * kStrata > in.remaining()) throw FormatError("a grid's strata are cut short");
     for (std::uint32_t r = 0; r < regions; ++r) {
-        std::uint64_t left = kOne;
+        std::uint64_t left = kWholeMass;
         for (std::uint32_t s = 0; s < kStrata; ++s) {
             const std::uint64_t mass = in.get_varint();
             if (mass > left) throw FormatError("a region's probabilities sum to more than one");

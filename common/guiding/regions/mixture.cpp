@@ -7,16 +7,12 @@
 #include "common/base/policy.h"
 
 namespace treefarm {
-namespace {
-
-double total(const MixtureHistogram& histogram) {
+double histogram_total(const MixtureHistogram& histogram) {
     double sum = 0;
     for (const double h : histogram)
         sum += h;
     return sum;
 }
-
-}  // namespace
 
 double best_bsdf_fraction(const MixtureHistogram& histogram, double prior, double prior_weight) {
     const auto slope = [&](double a) {
@@ -54,7 +50,7 @@ void MixtureLearner::learn(const RegionModel& tree, const CellSums& sums, std::s
         const std::uint64_t records = sums.counts()[r];
         const double mean_record = records > 0 ? fresh / static_cast<double>(records) : 0.0;
         const double prior_weight =
-            tuned("learning.mixture_prior_records") * (mean_record > 0 ? mean_record : total(histogram));
+            tuned("learning.mixture_prior_records") * (mean_record > 0 ? mean_record : histogram_total(histogram));
         const auto prior = static_cast<double>(tree.bsdf_fraction[r]);
         fraction[r] = prior_weight > 0 ? static_cast<float>(best_bsdf_fraction(histogram, prior, prior_weight))
                                        : tree.bsdf_fraction[r];

@@ -34,6 +34,9 @@ inline double mixture_bin_centre(int bin) {
 
 using MixtureHistogram = std::array<double, kMixtureBins>;
 
+/// Sum over the bins, in their unit.
+double histogram_total(const MixtureHistogram& histogram);
+
 /// Fraction a in [learning.least_bsdf_fraction (policy.h), 1] that brings the mixture closest to f |cos| L in
 /// Kullback-Leibler divergence. It maximises sum_b H_b log(a r_b + (1 - a)(1 - r_b)) + prior_weight (prior log a + (1 -
 /// prior) log(1 - a)), which is concave. `prior_weight` is in the units of the histogram.

@@ -64,8 +64,9 @@ struct RegionModel {
     bool operator==(const RegionModel&) const = default;
 };
 
-inline constexpr int kMassBits = 30;         ///< probabilities of cells are integers, in units of 2^-30
-inline constexpr int kMaxSpatialDepth = 60;  ///< 20 halvings of each axis: floats have 24 bits
+inline constexpr int kMassBits = 30;  ///< probabilities of cells are integers, in units of 2^-30
+inline constexpr std::uint32_t kWholeMass = 1u << kMassBits;  ///< probability 1
+inline constexpr int kMaxSpatialDepth = 60;                   ///< 20 halvings of each axis: floats have 24 bits
 
 /// Sets the model's cube around `bounds`; edge 1 if the bounds have no extent.
 void set_cube(RegionModel& model, const Box3& bounds);

@@ -10,7 +10,6 @@
 namespace treefarm {
 namespace {
 
-constexpr std::uint32_t kOne = 1u << kMassBits;
 constexpr int kStratumShift = 2 * (kDirectionBits - kStrataDepth);
 
 std::uint32_t add_nodes(RegionModel& model, int halvings, std::uint32_t& regions) {
@@ -69,10 +68,10 @@ ModelFigures even_figures(const RegionModel& model) {
 /// The rounding error, less than 2^-24, is added to the first stratum, where it does not matter.
 void set_strata(std::span<const double> weight, double even_part, std::uint32_t* mass) {
     const double total = std::accumulate(weight.begin(), weight.end(), 0.0);
-    std::uint32_t left = kOne;
+    std::uint32_t left = kWholeMass;
     for (std::uint32_t s = 0; s < kStrata; ++s) {
         const double part = even_part / kStrata + (1.0 - even_part) * (weight[s] / total);
-        mass[s] = std::min(left, static_cast<std::uint32_t>(part * kOne));
+        mass[s] = std::min(left, static_cast<std::uint32_t>(part * kWholeMass));
         left -= mass[s];
     }
     mass[0] += left;
@@ -93,7 +92,7 @@ StrataSampler::Sample StrataSampler::sample(std::uint32_t region, const Draw& ra
 }
 
 float StrataSampler::pdf(std::uint32_t region, std::uint32_t code) const {
-    constexpr float kScale = kInvFourPi * static_cast<float>(kStrata) / static_cast<float>(kOne);
+    constexpr float kScale = kInvFourPi * static_cast<float>(kStrata) / static_cast<float>(kWholeMass);
     return kScale * static_cast<float>(mass_[cell(region, code)]);
 }
 

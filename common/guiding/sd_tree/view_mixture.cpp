@@ -9,16 +9,8 @@
 #include "common/base/policy.h"
 
 namespace treefarm {
-namespace {
-
-double total(const MixtureHistogram& histogram) {
-    return std::accumulate(histogram.begin(), histogram.end(), 0.0);
-}
-
-}  // namespace
-
 double view_gain(const MixtureHistogram& histogram, double others) {
-    const double whole = total(histogram);
+    const double whole = histogram_total(histogram);
     if (!(whole > 0)) return 0;
     double sum = 0;
     for (int b = 0; b < kMixtureBins; ++b) {
@@ -49,7 +41,7 @@ std::vector<ViewAdvice> ViewLearner::judge(const SdTree& tree, const CellSums& s
             fresh += h;
         }
         const auto records = static_cast<double>(sums.counts()[distribution]);
-        const double mean_record = records > 0 && fresh > 0 ? fresh / records : total(evidence.histogram);
+        const double mean_record = records > 0 && fresh > 0 ? fresh / records : histogram_total(evidence.histogram);
         const double prior = 1.0 - static_cast<double>(tree.view_fraction[v]);
         if (mean_record > 0)
             evidence.others =

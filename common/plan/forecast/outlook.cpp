@@ -15,7 +15,7 @@ constexpr double kShortestSample = 1e-9;
 constexpr double kOtherThreads = 0.1;
 
 /// Passes that had one tree.
-struct TreeFacts {
+struct TreeForecast {
     double spp = 0;
     double samples_times_variance = 0, samples_times_trimmed = 0, known_spp = 0;
     double trace_core_seconds = 0;  ///< without the log of records
@@ -27,15 +27,15 @@ struct TreeFacts {
     double core_per_spp() const { return trace_core_seconds / spp; }
 };
 
-std::vector<TreeFacts> trees_of(const RenderHistory& state) {
-    std::vector<TreeFacts> trees;
+std::vector<TreeForecast> trees_of(const RenderHistory& state) {
+    std::vector<TreeForecast> trees;
     bool fresh = true;
     for (const PassFacts& pass : state.passes) {
         if (fresh) {
             trees.emplace_back();
             trees.back().first = trees.size() == 1;
         }
-        TreeFacts& tree = trees.back();
+        TreeForecast& tree = trees.back();
         tree.spp += pass.spp;
         tree.next_event = pass.next_event;
         if (pass.spp >= 2) {
@@ -93,15 +93,15 @@ void Outlook::look_at_variance(const RenderHistory& state) {
         double weight, variance;
         int trees;
     };
-    std::vector<TreeFacts> trees = trees_of(state);
+    std::vector<TreeForecast> trees = trees_of(state);
     const bool several = trees.size() > 1, next_event = trees.back().next_event;
-    std::erase_if(trees, [&](const TreeFacts& tree) {
+    std::erase_if(trees, [&](const TreeForecast& tree) {
         return tree.known_spp == 0 || (tree.first && several) || tree.next_event != next_event;
     });
-    const bool trimmed = std::ranges::all_of(trees, [](const TreeFacts& tree) { return tree.trimmed() > 0; });
+    const bool trimmed = std::ranges::all_of(trees, [](const TreeForecast& tree) { return tree.trimmed() > 0; });
     double whole = 0, looked_at = 0;
     std::vector<Level> levels;
-    for (const TreeFacts& tree : trees) {
+    for (const TreeForecast& tree : trees) {
         levels.push_back({tree.known_spp, trimmed ? tree.trimmed() : tree.variance(), 1});
         whole += tree.known_spp * tree.variance();
         looked_at += tree.known_spp * levels.back().variance;
@@ -143,7 +143,7 @@ void Outlook::look_at_cost(const RenderHistory& state) {
     }
     const PassFacts& last = state.passes.back();
     overhead_ = last.overhead_seconds;
-    const std::vector<TreeFacts> trees = trees_of(state);
+    const std::vector<TreeForecast> trees = trees_of(state);
     const double traced = trees.back().core_per_spp();
     if (!(core > 0 && traced > 0)) {  // a farm that does not report its threads' work
         core_per_spp_ = clock / spp;
@@ -153,7 +153,7 @@ void Outlook::look_at_cost(const RenderHistory& state) {
     core_per_spp_ = traced;
     if (last.record) recording_ = core_seconds(last) / (last.spp * traced);
     if (trees.size() < 3) return;
-    const TreeFacts& before = trees[trees.size() - 2];
+    const TreeForecast& before = trees[trees.size() - 2];
     if (before.core_per_spp() > 0 && before.next_event == trees.back().next_event)
         cost_ratio_ = std::clamp(traced / before.core_per_spp(), 1 / tuned("forecast.most_cost_ratio"),
                                  tuned("forecast.most_cost_ratio"));

@@ -22,12 +22,12 @@ namespace treefarm {
 namespace {
 
 /// Settings of light paths, from the job.
-struct Rules {
+struct LightPathRules {
     int max_depth;  ///< edges of a path from lamp to lens; -1: no limit
     bool strict_normals, hide_emitters;
     Roulette roulette;
 
-    explicit Rules(const Job::Integrator& job)
+    explicit LightPathRules(const Job::Integrator& job)
         : max_depth(job.max_depth),
           strict_normals(job.strict_normals),
           hide_emitters(job.hide_emitters),
@@ -88,7 +88,7 @@ class Connections {
 template <class Surface>
 class LightTracer {
   public:
-    LightTracer(const TraceScene& scene, const Sensor& sensor, const Rules& rules, const EmissionChoice& choice,
+    LightTracer(const TraceScene& scene, const Sensor& sensor, const LightPathRules& rules, const EmissionChoice& choice,
                 EmissionRecord& record, UnitOutput& output)
         : scene_(scene),
           sensor_(sensor),
@@ -175,7 +175,7 @@ class LightTracer {
 
     const TraceScene& scene_;
     const Sensor& sensor_;
-    const Rules rules_;
+    const LightPathRules rules_;
     const EmissionChoice& choice_;
     EmissionRecord& record_;
     TraceStats& stats_;
@@ -193,7 +193,7 @@ RenderUnit prepare_light(std::shared_ptr<const TraceScene> scene, const Resolved
         const EmissionChoice choice = scene->emitters().emission_choice(pass.emission);
         EmissionRecord record(choice, job.learns_emission, pass, output.stats.emission);
         with_surface(*scene, [&]<class Surface>() {
-            LightTracer<Surface> tracer(*scene, sensor, Rules(job.integrator), choice, record, output);
+            LightTracer<Surface> tracer(*scene, sensor, LightPathRules(job.integrator), choice, record, output);
             const std::uint64_t pixels = pass.layers.splats.pixels;
             for (std::uint64_t path = unit.first; path < unit.first + unit.count; ++path)
                 tracer.trace({job.sampler.seed, static_cast<std::uint32_t>(path % pixels),
