@@ -74,7 +74,7 @@ function(treefarm_compile_all)
                 target_compile_options(${target} PRIVATE ${program_level})
             endif()
         endif()
-        if(TREEFARM_UNITY_HOT OR (NOT target IN_LIST TREEFARM_HOT AND NOT folder STREQUAL "bench"))
+        if(TREEFARM_UNITY_HOT OR (NOT target MATCHES "^tf_(integrators|shading|trace_scene)$" AND NOT folder STREQUAL "bench"))
             if(NOT target IN_LIST TREEFARM_FILE_BY_FILE)
                 set_target_properties(${target} PROPERTIES UNITY_BUILD ${TREEFARM_UNITY}
                                       UNITY_BUILD_BATCH_SIZE ${TREEFARM_UNITY_FILES})

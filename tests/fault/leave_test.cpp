@@ -5,7 +5,7 @@
 namespace treefarm::test {
 namespace {
 
-class Leave : public FarmTest {
+class Leaving : public FarmTest {
   protected:
     std::atomic<bool> told_ = false;
 
@@ -19,7 +19,7 @@ class Leave : public FarmTest {
     }
 };
 
-TEST_F(Leave, OneOfThreeAtAnyMomentCostsNoBit) {
+TEST_F(Leaving, OneOfThreeAtAnyMomentCostsNoBit) {
     for (const int count : {1, 2, 3}) {
         make_workers(3);
         first_ = 1;
@@ -35,7 +35,7 @@ TEST_F(Leave, OneOfThreeAtAnyMomentCostsNoBit) {
     }
 }
 
-TEST_F(Leave, BeforeItHasAnything) {
+TEST_F(Leaving, BeforeItHasAnything) {
     make_workers(2);
     told_ = true;
     settings_[0].told_to_leave = [this] { return told_.load(); };
@@ -43,7 +43,7 @@ TEST_F(Leave, BeforeItHasAnything) {
     EXPECT_TRUE(orderly_);
 }
 
-TEST_F(Leave, WhatTakesTooLongIsGivenBack) {
+TEST_F(Leaving, WhatTakesTooLongIsGivenBack) {
     job_.farm.leave_seconds = 0.05;
     make_workers(2);
     first_ = 0;
@@ -70,7 +70,7 @@ TEST_F(Leave, WhatTakesTooLongIsGivenBack) {
     EXPECT_GT(reissued_, 0u);
 }
 
-TEST_F(Leave, NoLaterJobWaitsForIt) {
+TEST_F(Leaving, NoLaterJobWaitsForIt) {
     make_workers(2);
     first_ = 1;
     tell_at_result(1, 1);
@@ -83,7 +83,7 @@ TEST_F(Leave, NoLaterJobWaitsForIt) {
     EXPECT_TRUE(orderly_);
 }
 
-TEST_F(Leave, TheLastOneEndsTheRenderWhichCanBeGoneOnWith) {
+TEST_F(Leaving, TheLastOneEndsTheRenderWhichCanBeGoneOnWith) {
     make_workers(1);
     tell_at_result(0, 3);
     std::optional<RenderState> last;

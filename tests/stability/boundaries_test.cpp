@@ -12,7 +12,7 @@
 namespace treefarm {
 namespace {
 
-using test::rough_boundary;
+using test::rough;
 
 /// Fresnel's reflectance in long double, from the sine so that nothing cancels.
 long double exact_reflectance(long double cos_i, long double eta) {
@@ -121,10 +121,10 @@ TEST(Boundaries, EqualIndicesAreInvisible) {
             const Microfacets facets = kind % 2 == 0 ? Microfacets::ggx : Microfacets::beckmann;
             const float alpha = kind < 4 ? 0.01f : kind < 6 ? 0.3f : 1.0f;
             const test::PreparedMaterial material =
-                kind == 0   ? test::PreparedMaterial(DielectricMaterial{eta, white, white, {}})
-                : kind == 1 ? test::PreparedMaterial(ThinDielectricMaterial{eta, white, white})
-                            : test::PreparedMaterial(
-                                  DielectricMaterial{eta, white, white, rough_boundary(facets, alpha, alpha)});
+                kind == 0 ? test::PreparedMaterial(DielectricMaterial{eta, white, white, {}})
+                : kind == 1
+                    ? test::PreparedMaterial(ThinDielectricMaterial{eta, white, white})
+                    : test::PreparedMaterial(DielectricMaterial{eta, white, white, rough(facets, alpha, alpha)});
             for (const bool back : {false, true})
                 for (const float cos : {1.0f, 0.6f, 0.2f}) {
                     const Vec3 wo(std::sqrt(1.0f - cos * cos), 0.0f, cos);

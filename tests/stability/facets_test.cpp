@@ -8,7 +8,7 @@
 namespace treefarm {
 namespace {
 
-using test::rough_facets;
+using test::rough;
 
 const Rgb kWhite(1.0f);
 
@@ -58,7 +58,7 @@ TEST(Facets, TinyRoughnessIsAMirror) {
     test::Worst worst;
     for (const Microfacets kind : {Microfacets::ggx, Microfacets::beckmann})
         for (const float alpha : {1e-30f, 1e-8f, 1e-6f, 1e-5f, 1e-4f, 1e-3f, 1e-2f}) {
-            auto metal = prepared(ConductorMaterial{Rgb(0.2f), Rgb(3.0f), kWhite, rough_facets(kind, alpha, alpha)});
+            auto metal = prepared(ConductorMaterial{Rgb(0.2f), Rgb(3.0f), kWhite, rough(kind, alpha, alpha)});
             const auto mirror = prepared(ConductorMaterial{Rgb(0.2f), Rgb(3.0f), kWhite, {}});
             const double used = std::max(double(alpha), 1e-4);
             for (const float cos : {1.0f, 0.7f, 0.2f}) {
@@ -80,7 +80,7 @@ TEST(Facets, HugeRoughnessKeepsItsEnergy) {
     double most = 0;
     for (const Microfacets kind : {Microfacets::ggx, Microfacets::beckmann})
         for (const auto& [u, v] : {std::pair{1.0f, 1.0f}, {1e3f, 1e3f}, {1e6f, 1e6f}, {1e6f, 1e-4f}, {1e-4f, 1e6f}}) {
-            auto metal = prepared(ConductorMaterial{Rgb(0.0f), Rgb(1.0f), kWhite, rough_facets(kind, u, v)});
+            auto metal = prepared(ConductorMaterial{Rgb(0.0f), Rgb(1.0f), kWhite, rough(kind, u, v)});
             for (const float cos : {1.0f, 0.5f, 1e-3f, 1e-8f})
                 most = std::max(most, reflect(front(metal), cos).power);
         }
@@ -97,8 +97,8 @@ TEST(Facets, OneSmoothAxis) {
     test::Worst worst;
     for (const Microfacets kind : {Microfacets::ggx, Microfacets::beckmann})
         for (const bool along_u : {true, false}) {
-            auto metal = prepared(ConductorMaterial{
-                Rgb(0.0f), Rgb(1.0f), kWhite, rough_facets(kind, along_u ? 1e-30f : 0.3f, along_u ? 0.3f : 1e-30f)});
+            auto metal = prepared(ConductorMaterial{Rgb(0.0f), Rgb(1.0f), kWhite,
+                                                    rough(kind, along_u ? 1e-30f : 0.3f, along_u ? 0.3f : 1e-30f)});
             for (std::uint32_t i = 0; i < 2000; ++i) {
                 const Draw r = draw({5, i, 0}, 0, Stream::scatter);
                 const BsdfSample s = front(metal).sample({0, 0, 1}, {0.5f, {to_unit(r[2]), to_unit(r[3])}});
@@ -119,7 +119,7 @@ std::vector<decltype(Material::bsdf)> every_kind(const Rgb& specular, const Rgb&
     for (const bool nonlinear : {false, true})
         all.push_back(PlasticMaterial{1.5f, diffuse, specular, nonlinear, {}});
     for (const Microfacets kind : {Microfacets::ggx, Microfacets::beckmann}) {
-        const Roughness r = rough_facets(kind, alpha, alpha);
+        const Roughness r = rough(kind, alpha, alpha);
         all.push_back(ConductorMaterial{Rgb(0.1f), Rgb(3.0f), specular, r});
         all.push_back(DielectricMaterial{1.5f, specular, diffuse, r});
         all.push_back(PlasticMaterial{1.5f, diffuse, specular, true, r});

@@ -10,8 +10,8 @@ namespace treefarm {
 namespace {
 
 using test::add_shape;
-using test::kInfinite;
-using test::kNoNumber;
+using test::kInfinity;
+using test::kNan;
 
 EmbreeScene geometry_of(Scene scene) {
     return EmbreeScene(std::move(scene.shapes), "avx2");
@@ -120,9 +120,8 @@ TEST(Triangles, SliversAndWorse) {
 TEST(Triangles, UselessNormalsAndCoordinates) {
     test::Worst worst;
     const LetFloatsBe hostile;  // numbers that are none come in
-    const Vec3 normals[] = {
-        Vec3(0.0f),      Vec3(1e-30f, 0, 0),     Vec3(1e30f),  Vec3(kNoNumber), Vec3(0, kNoNumber, 1),
-        Vec3(kInfinite), Vec3(0, 0, -kInfinite), Vec3(0, 0, 1)};
+    const Vec3 normals[] = {Vec3(0.0f),      Vec3(1e-30f, 0, 0),     Vec3(1e30f),  Vec3(kNan), Vec3(0, kNan, 1),
+                            Vec3(kInfinity), Vec3(0, 0, -kInfinity), Vec3(0, 0, 1)};
     const std::vector<std::vector<Vec2>> coordinates = {{},
                                                         {Vec2(0.0f), Vec2(0.0f), Vec2(0.0f)},
                                                         {Vec2(0, 0), Vec2(1, 1), Vec2(2, 2)},

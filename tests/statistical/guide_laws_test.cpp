@@ -142,7 +142,7 @@ class PlainSurface {
     Vec3 wo_ = normalize(Vec3(0.5f, 0.1f, 0.8f));
 };
 
-struct Moments {
+struct GuideMoments {
     double sum = 0, squares = 0, count = 0;
     void add(double x) {
         sum += x;
@@ -167,7 +167,7 @@ TYPED_TEST(GuideLaws, TheMixtureEstimatesIntegrals) {
         guidance.region = region;
         guidance.bsdf_fraction = 0.3f;
         auto scatter = std::make_unique<typename Walk::template ScatterBatch<true, true>>();
-        Moments all, tilted, half;
+        GuideMoments all, tilted, half;
         for (std::uint32_t i = 0; i < kGuideSamples; ++i) {
             const Draw random = draw({6, i, 0}, 0, Stream::scatter);
             const Vec3 cosine = square_to_cosine_hemisphere({to_unit(random[2]), to_unit(random[3])});

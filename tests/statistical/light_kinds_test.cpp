@@ -13,23 +13,23 @@
 namespace treefarm {
 namespace {
 
-using test::add_lamp_shape;
-using test::expect_distribution_by_kind;
-using test::expect_irradiance_by_kind;
-using test::lamp_quad;
+using test::add_shape;
+using test::expect_irradiance;
+using test::expect_light_distribution;
+using test::quad;
 
 const Vec3 kUp(0, 0, 1);
 
 Scene only_light(decltype(Shape::geometry) geometry) {
     Scene scene;
-    add_lamp_shape(scene, std::move(geometry), kNone, Rgb(1.0f));
+    add_shape(scene, std::move(geometry), kNone, Rgb(1.0f));
     return scene;
 }
 
 /// A scene lit by one emitter, with something small in it, so that it has a size.
 Scene lit_by(decltype(Emitter::kind) kind) {
     Scene scene;
-    add_lamp_shape(scene, lamp_quad({-1, -1, -2}, {2, 0, 0}, {0, 2, 0}), kNone);
+    add_shape(scene, quad({-1, -1, -2}, {2, 0, 0}, {0, 2, 0}), kNone);
     scene.emitters.push_back({std::move(kind), {}});
     return scene;
 }
@@ -43,9 +43,9 @@ Scene half_black_lamp(float h) {
     image.floats = {0.0f, 4.0f};
     scene.images.push_back(image);
     test::add_texture(scene, BitmapTexture{0, false, Wrap::repeat, Wrap::repeat, {}}, "");
-    Mesh mesh = lamp_quad({-1, -1, h}, {0, 2, 0}, {2, 0, 0});
+    Mesh mesh = quad({-1, -1, h}, {0, 2, 0}, {2, 0, 0});
     mesh.uvs = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
-    add_lamp_shape(scene, mesh, kNone, Rgb(0.5f));
+    add_shape(scene, mesh, kNone, Rgb(0.5f));
     std::get<AreaEmitter>(scene.emitters[0].kind).radiance.texture = 0;
     return scene;
 }
@@ -72,12 +72,12 @@ Scene environment(int width, int height, const std::vector<std::pair<int, int>>&
 }
 
 TEST(LightDistribution, Ellipse) {
-    expect_distribution_by_kind(only_light(Disk{Vec3(0.3f, 0, 1.5f), Vec3(0, 2, 0.3f), Vec3(1, 0.4f, 0)}),
-                                Vec3(0.3f, 0.1f, 0), "ellipse");
+    expect_light_distribution(only_light(Disk{Vec3(0.3f, 0, 1.5f), Vec3(0, 2, 0.3f), Vec3(1, 0.4f, 0)}),
+                              Vec3(0.3f, 0.1f, 0), "ellipse");
 }
 
 TEST(LightDistribution, CylinderFromOutside) {
-    expect_distribution_by_kind(
+    expect_light_distribution(
         only_light(Cylinder{Vec3(-1, 0.3f, 2), Vec3(1.5f, 0.3f, 1.5f), 0.7f, false, Vec3(0, 1, 0)}), Vec3(0.1f),
         "cylinder", 0.2f);
 }
@@ -85,12 +85,12 @@ TEST(LightDistribution, CylinderFromOutside) {
 TEST(LightDistribution, CylinderFromInside) {
     Cylinder tube{Vec3(0, 0, -1), Vec3(0, 0, 2), 1.2f};
     tube.flip_normals = true;
-    expect_distribution_by_kind(only_light(tube), Vec3(0.5f, 0.3f, 0.2f), "tube");
+    expect_light_distribution(only_light(tube), Vec3(0.5f, 0.3f, 0.2f), "tube");
 }
 
 TEST(LightDistribution, TexturedRectangle) {
     // Black halves are sampled, too, and count as no success: the density is compared where the lamp shines.
-    expect_distribution_by_kind(half_black_lamp(0.8f), Vec3(0.2f, 0.1f, 0), "half black");
+    expect_light_distribution(half_black_lamp(0.8f), Vec3(0.2f, 0.1f, 0), "half black");
 }
 
 TEST(LightDistribution, ImageWithOneBrightTexel) {
@@ -98,13 +98,13 @@ TEST(LightDistribution, ImageWithOneBrightTexel) {
         {"amid", {5, 3}}, {"left of the seam", {15, 4}}, {"right of the seam", {0, 4}}};
     for (const auto& [what, texel] : texels)
         for (const float background : {0.0f, 0.2f})
-            expect_distribution_by_kind(environment(16, 8, {texel}, background), Vec3(0.0f), what);
+            expect_light_distribution(environment(16, 8, {texel}, background), Vec3(0.0f), what);
 }
 
 TEST(LightDistribution, ImagesOfOddShapes) {
     for (const auto& [width, height] : {std::pair{1, 1}, {1, 6}, {7, 1}, {2, 2}, {33, 5}})
-        expect_distribution_by_kind(environment(width, height, {{width - 1, height - 1}}, 1.0f), Vec3(0.0f),
-                                    std::to_string(width) + " x " + std::to_string(height));
+        expect_light_distribution(environment(width, height, {{width - 1, height - 1}}, 1.0f), Vec3(0.0f),
+                                  std::to_string(width) + " x " + std::to_string(height));
 }
 
 /// A panel of `side` by `side` small squares that shines downwards.
@@ -118,7 +118,7 @@ Mesh panel(int side, const Vec3& corner, float size) {
 }
 
 TEST(LightDistribution, PanelInPatches) {
-    expect_distribution_by_kind(only_light(panel(20, {-1.5f, -1, 0.7f}, 3.0f)), Vec3(0.0f), "panel");
+    expect_light_distribution(only_light(panel(20, {-1.5f, -1, 0.7f}, 3.0f)), Vec3(0.0f), "panel");
     const TraceScene lights(only_light(panel(20, {-1.5f, -1, 0.7f}, 3.0f)), Job());
     EXPECT_GT(lights.emitters().choice().node_count(), 8u) << "near patches are chosen more often than far ones";
 }
@@ -126,14 +126,13 @@ TEST(LightDistribution, PanelInPatches) {
 /// Batches with gaps against samples drawn alone.
 void expect_batches_as_alone(LightSelection how, int more_lamps) {
     Scene scene = environment(37, 11, {{5, 3}, {36, 0}, {0, 10}}, 0.3f);
-    add_lamp_shape(scene, lamp_quad({-1, -1, -1}, {2, 0, 0}, {0, 2, 0}), kNone, Rgb(3.0f));
-    add_lamp_shape(scene, Sphere{Vec3(0, 0, 0.5f), 0.5f}, kNone, Rgb(1.0f, 2.0f, 3.0f));
-    add_lamp_shape(scene, Sphere{Vec3(0, 0, 0), 4.0f, true}, kNone, Rgb(0.1f));
+    add_shape(scene, quad({-1, -1, -1}, {2, 0, 0}, {0, 2, 0}), kNone, Rgb(3.0f));
+    add_shape(scene, Sphere{Vec3(0, 0, 0.5f), 0.5f}, kNone, Rgb(1.0f, 2.0f, 3.0f));
+    add_shape(scene, Sphere{Vec3(0, 0, 0), 4.0f, true}, kNone, Rgb(0.1f));
     scene.emitters.push_back({PointEmitter{Vec3(3, 0, 0), Rgb(1.5f)}, {}});
     scene.emitters.push_back({ConstantEmitter{Rgb(0.2f)}, {}});
     for (int i = 0; i < more_lamps; ++i)
-        add_lamp_shape(scene, lamp_quad({float(i), 4, float(i % 7)}, {0, 0, 0.5f}, {0.5f, 0, 0}), kNone,
-                       Rgb(float(1 + i % 3)));
+        add_shape(scene, quad({float(i), 4, float(i % 7)}, {0, 0, 0.5f}, {0.5f, 0, 0}), kNone, Rgb(float(1 + i % 3)));
     Job job;
     job.integrator.light_selection = how;
     const TraceScene lights(scene, job);
@@ -198,17 +197,16 @@ TEST(LightBatch, IsItsSamplesToTheBit) {
 TEST(LightChoice, ChangesNoIntegral) {
     for (const int lamps : {0, 30}) {
         Scene scene = environment(37, 11, {{5, 3}, {36, 0}}, 0.3f);
-        add_lamp_shape(scene, lamp_quad({-1, -1, 3}, {0, 2, 0}, {2, 0, 0}), kNone, Rgb(1.0f));
-        add_lamp_shape(scene, Sphere{Vec3(3, 0, 0), 0.7f, false}, kNone, Rgb(2.0f));
-        add_lamp_shape(scene, Sphere{Vec3(0, 0, 0), 9.0f, true}, kNone, Rgb(0.01f));
+        add_shape(scene, quad({-1, -1, 3}, {0, 2, 0}, {2, 0, 0}), kNone, Rgb(1.0f));
+        add_shape(scene, Sphere{Vec3(3, 0, 0), 0.7f, false}, kNone, Rgb(2.0f));
+        add_shape(scene, Sphere{Vec3(0, 0, 0), 9.0f, true}, kNone, Rgb(0.01f));
         scene.emitters.push_back({ConstantEmitter{Rgb(0.2f)}, {}});
         scene.emitters.push_back({PointEmitter{Vec3(0, 0, 2), Rgb(1.0f)}, {}});
         scene.emitters.push_back({SpotEmitter{Vec3(0, 1, 2), Vec3(0, 0, -1), Rgb(6.0f), 0.8f, 0.4f}, {}});
         scene.emitters.push_back({DirectionalEmitter{Vec3(0, 0, -1), Rgb(0.7f)}, {}});
         for (int i = 0; i < lamps; ++i)
-            add_lamp_shape(scene, lamp_quad({float(i % 5), 4, float(i % 7)}, {0, 0, 0.5f}, {0.5f, 0, 0}), kNone,
-                           Rgb(1.0f));
-        if (lamps > 0) add_lamp_shape(scene, panel(8, {-3, -3, 4}, 5.0f), kNone, Rgb(0.3f));
+            add_shape(scene, quad({float(i % 5), 4, float(i % 7)}, {0, 0, 0.5f}, {0.5f, 0, 0}), kNone, Rgb(1.0f));
+        if (lamps > 0) add_shape(scene, panel(8, {-3, -3, 4}, 5.0f), kNone, Rgb(0.3f));
         LightProbabilities learned{};
         learned[0] = kLightProbabilityOne / 4;
         learned[2] = kLightProbabilityOne / 2;
@@ -252,8 +250,8 @@ TEST(LightChoice, ChangesNoIntegral) {
 
 TEST(LightChoice, IsByPower) {
     Scene scene;
-    add_lamp_shape(scene, lamp_quad({-1, -1, -1}, {2, 0, 0}, {0, 2, 0}), kNone, Rgb(3.0f));
-    add_lamp_shape(scene, Sphere{Vec3(0, 0, 0.5f), 0.5f}, kNone, Rgb(1.0f, 2.0f, 3.0f));
+    add_shape(scene, quad({-1, -1, -1}, {2, 0, 0}, {0, 2, 0}), kNone, Rgb(3.0f));
+    add_shape(scene, Sphere{Vec3(0, 0, 0.5f), 0.5f}, kNone, Rgb(1.0f, 2.0f, 3.0f));
     const Vec3 point(3, 0, 0), spot(0, 3, 0);
     scene.emitters.push_back({PointEmitter{point, Rgb(1.5f)}, {}});
     scene.emitters.push_back({SpotEmitter{spot, Vec3(0, -1, 0), Rgb(6.0f), 0.8f, 0.4f}, {}});
@@ -292,8 +290,8 @@ TEST(LightIrradiance, Disk) {
             const auto r = static_cast<float>(scale);
             const Scene scene =
                 only_light(Disk{Vec3(0, 0, static_cast<float>(h * scale)), Vec3(0, r, 0), Vec3(r, 0, 0)});
-            expect_irradiance_by_kind(scene, Vec3(0.0f), kUp, M_PI / (1 + h * h),
-                                      "height " + std::to_string(h) + " scale " + std::to_string(scale));
+            expect_irradiance(scene, Vec3(0.0f), kUp, M_PI / (1 + h * h),
+                              "height " + std::to_string(h) + " scale " + std::to_string(scale));
         }
 }
 
@@ -303,8 +301,7 @@ TEST(LightIrradiance, TubeAroundAPatch) {
         const auto s = static_cast<float>(scale);
         Cylinder tube{Vec3(0.0f), Vec3(0, 0, 1.5f * s), s};
         tube.flip_normals = true;
-        expect_irradiance_by_kind(only_light(tube), Vec3(0.0f), kUp, M_PI * (1 - 1 / (1 + 1.5 * 1.5)),
-                                  std::to_string(scale));
+        expect_irradiance(only_light(tube), Vec3(0.0f), kUp, M_PI * (1 - 1 / (1 + 1.5 * 1.5)), std::to_string(scale));
     }
 }
 
@@ -312,14 +309,14 @@ TEST(LightIrradiance, TexturesDimTheirEmitter) {
     // The lit half, at radiance 2, seen from below the middle: half of the whole rectangle's form factor.
     const double x = 1.0;
     const double corner = 2 * x / std::sqrt(1 + x * x) * std::atan(x / std::sqrt(1 + x * x)) / (2 * M_PI);
-    expect_irradiance_by_kind(half_black_lamp(1.0f), Vec3(0.0f), kUp, 2 * M_PI * 2 * corner, "half black");
+    expect_irradiance(half_black_lamp(1.0f), Vec3(0.0f), kUp, 2 * M_PI * 2 * corner, "half black");
 }
 
 TEST(LightIrradiance, MasksDimTheirEmitter) {
     Scene scene = only_light(Disk{Vec3(0, 0, 1), Vec3(0, 1, 0), Vec3(1, 0, 0)});
     scene.shapes[0].material = test::add_diffuse(scene, Rgb(0.5f));
     scene.materials[0].opacity = FloatInput(0.3f);
-    expect_irradiance_by_kind(scene, Vec3(0.0f), kUp, 0.3 * M_PI / 2, "opacity 0.3");
+    expect_irradiance(scene, Vec3(0.0f), kUp, 0.3 * M_PI / 2, "opacity 0.3");
 }
 
 TEST(LightIrradiance, SpheresShineInwardsThroughTheHolesOfTheirMask) {
@@ -338,16 +335,16 @@ TEST(LightIrradiance, PointSpotAndParallelLight) {
         const auto s = static_cast<float>(scale);
         const Vec3 at = Vec3(1, 2, 3) * s;
         const double d2 = 14 * scale * scale, cosine = double(dot(n, normalize(at)));
-        expect_irradiance_by_kind(lit_by(PointEmitter{at, Rgb(5.0f)}), Vec3(0.0f), n, 5 * cosine / d2, "point");
+        expect_irradiance(lit_by(PointEmitter{at, Rgb(5.0f)}), Vec3(0.0f), n, 5 * cosine / d2, "point");
         const Vec3 away = normalize(-at);
         const Vec3 side = normalize(cross(away, Vec3(0, 1, 0)));
         for (const double angle : {0.0, 0.29, 0.4, 0.49, 0.51, 2.0}) {
             const Vec3 axis = away * static_cast<float>(std::cos(angle)) + side * static_cast<float>(std::sin(angle));
             const double falloff = std::clamp((0.5 - angle) / 0.2, 0.0, 1.0);
-            expect_irradiance_by_kind(lit_by(SpotEmitter{at, axis, Rgb(5.0f), 0.5f, 0.3f}), Vec3(0.0f), n,
-                                      falloff * 5 * cosine / d2, "spot " + std::to_string(angle));
+            expect_irradiance(lit_by(SpotEmitter{at, axis, Rgb(5.0f), 0.5f, 0.3f}), Vec3(0.0f), n,
+                              falloff * 5 * cosine / d2, "spot " + std::to_string(angle));
         }
-        expect_irradiance_by_kind(lit_by(DirectionalEmitter{away, Rgb(4.0f)}), Vec3(0.0f), n, 4 * cosine, "parallel");
+        expect_irradiance(lit_by(DirectionalEmitter{away, Rgb(4.0f)}), Vec3(0.0f), n, 4 * cosine, "parallel");
     }
 }
 
@@ -374,16 +371,16 @@ TEST(LightIrradiance, SpotsProjectTheirTexture) {
             const double distance = double(away.length()), cosine = double(height) / distance;
             const bool lit = std::acos(cosine) < double(cutoff);
             const double texel = 1.0 + row * kSize + column;
-            expect_irradiance_by_kind(scene, p, kUp, lit ? 5.0 * texel * cosine / (distance * distance) : 0.0,
-                                      "texel " + std::to_string(column) + ", " + std::to_string(row));
+            expect_irradiance(scene, p, kUp, lit ? 5.0 * texel * cosine / (distance * distance) : 0.0,
+                              "texel " + std::to_string(column) + ", " + std::to_string(row));
         }
 }
 
 TEST(LightIrradiance, ConstantEnvironmentAndConstantImage) {
-    expect_irradiance_by_kind(lit_by(ConstantEmitter{Rgb(1.5f)}), Vec3(0.0f), kUp, 1.5 * M_PI, "constant");
+    expect_irradiance(lit_by(ConstantEmitter{Rgb(1.5f)}), Vec3(0.0f), kUp, 1.5 * M_PI, "constant");
     for (const auto& [width, height] : {std::pair{1, 1}, {16, 8}, {512, 256}})
-        expect_irradiance_by_kind(environment(width, height, {}, 0.75f), Vec3(0.0f), kUp, 1.5 * M_PI,
-                                  "constant image of " + std::to_string(width));
+        expect_irradiance(environment(width, height, {}, 0.75f), Vec3(0.0f), kUp, 1.5 * M_PI,
+                          "constant image of " + std::to_string(width));
 }
 
 TEST(LightIrradiance, SeveralEmittersAddUp) {
@@ -391,7 +388,7 @@ TEST(LightIrradiance, SeveralEmittersAddUp) {
     scene.emitters.push_back({ConstantEmitter{Rgb(0.25f)}, {}});
     scene.emitters.push_back({PointEmitter{Vec3(0, 0, 2), Rgb(3.0f)}, {}});
     scene.emitters.push_back({DirectionalEmitter{Vec3(0, 0, -1), Rgb(0.5f)}, {}});
-    expect_irradiance_by_kind(scene, Vec3(0.0f), kUp, 1.25 * M_PI + 0.75 + 0.5, "several");
+    expect_irradiance(scene, Vec3(0.0f), kUp, 1.25 * M_PI + 0.75 + 0.5, "several");
 }
 
 }  // namespace

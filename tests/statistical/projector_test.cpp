@@ -10,7 +10,7 @@
 namespace treefarm {
 namespace {
 
-using test::expect_projected_irradiance;
+using test::expect_irradiance;
 
 const Vec3 kUpwards(0, 0, 1);
 
@@ -50,13 +50,13 @@ TEST(Projector, ThrowsItsPicture) {
     const Projection thrown;
     for (const float v : {0.01f, 0.3f, 0.7f, 0.99f})
         for (const float u : {0.01f, 0.3f, 0.6f, 0.8f, 0.99f})
-            expect_projected_irradiance(thrown.scene, thrown.point(u, v), kUpwards, 5.0 * Projection::texel(u, v) / 4.0,
-                                        "place " + std::to_string(u) + ", " + std::to_string(v));
+            expect_irradiance(thrown.scene, thrown.point(u, v), kUpwards, 5.0 * Projection::texel(u, v) / 4.0,
+                              "place " + std::to_string(u) + ", " + std::to_string(v));
     for (const auto& [u, v] : {std::pair{-0.01f, 0.5f}, {1.01f, 0.5f}, {0.5f, -0.01f}, {0.5f, 1.01f}})
-        expect_projected_irradiance(thrown.scene, thrown.point(u, v), kUpwards, 0.0, "beside the picture");
+        expect_irradiance(thrown.scene, thrown.point(u, v), kUpwards, 0.0, "beside the picture");
     // Behind it, where the picture would be if lines went on.
     const Vec3 behind = thrown.projector.position * 2.0f - thrown.point(0.3f, 0.3f);
-    expect_projected_irradiance(thrown.scene, behind, Vec3(0, 0, -1), 0.0, "behind");
+    expect_irradiance(thrown.scene, behind, Vec3(0, 0, -1), 0.0, "behind");
     // Without a texture, on a tilted surface at other distances: E cos / (z^2 cos_axis).
     ProjectorEmitter plain = thrown.projector;
     plain.irradiance.texture = kNone;
@@ -65,9 +65,8 @@ TEST(Projector, ThrowsItsPicture) {
         plain.position = Vec3(0, 0, static_cast<float>(scale));
         const Vec3 p = Vec3(0.5f, 0.2f, 0.0f) * static_cast<float>(scale);
         const Vec3 wi = normalize(plain.position - p);
-        expect_projected_irradiance(lit_by_projector(plain), p, n,
-                                    5.0 * double(dot(n, wi)) / (scale * scale * double(wi.z)),
-                                    "scale " + std::to_string(scale));
+        expect_irradiance(lit_by_projector(plain), p, n, 5.0 * double(dot(n, wi)) / (scale * scale * double(wi.z)),
+                          "scale " + std::to_string(scale));
     }
 }
 

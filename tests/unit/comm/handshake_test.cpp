@@ -15,7 +15,7 @@ namespace {
 
 using test::key_of;
 
-constexpr std::uint64_t kBuild = 7;
+constexpr std::uint64_t kHandshakeBuild = 7;
 
 JoinTicket ticket() {
     JoinTicket ticket{{}, "localhost", 1, key_of(3)};
@@ -120,10 +120,10 @@ TEST(Frames, PartsOfNothingAreRefused) {
 struct Meeting {
     std::function<Bytes(Bytes)> on_hello = [](Bytes b) { return b; }, on_answer = on_hello;
     JoinTicket of_guest = ticket(), of_listener = ticket();
-    std::uint64_t build_of_guest = kBuild;
+    std::uint64_t build_of_guest = kHandshakeBuild;
 
     std::string run() {
-        ListenerHandshake listener(of_listener, kBuild, key_of(5));
+        ListenerHandshake listener(of_listener, kHandshakeBuild, key_of(5));
         GuestHandshake guest(of_guest, build_of_guest, key_of(6));
         std::string why;
         try {
@@ -177,7 +177,7 @@ TEST(Handshake, AGuestIsToldWhyItIsTurnedAway) {
 }
 
 TEST(Handshake, EveryBitOfTheHelloIsUnderItsProof) {
-    for (std::size_t bit = 0; bit < 8 * GuestHandshake(ticket(), kBuild, key_of(6)).hello().size(); ++bit) {
+    for (std::size_t bit = 0; bit < 8 * GuestHandshake(ticket(), kHandshakeBuild, key_of(6)).hello().size(); ++bit) {
         Meeting meeting;
         meeting.on_hello = [&](Bytes hello) {
             hello[bit / 8] = static_cast<std::uint8_t>(hello[bit / 8] ^ (1 << (bit % 8)));
@@ -204,8 +204,8 @@ TEST(Handshake, EveryBitOfTheAnswerIsUnderItsProof) {
 }
 
 TEST(Handshake, WhoRepeatsAnothersWordsIsNoGuest) {
-    GuestHandshake guest(ticket(), kBuild, key_of(6));
-    ListenerHandshake first(ticket(), kBuild, key_of(5)), second(ticket(), kBuild, key_of(4));
+    GuestHandshake guest(ticket(), kHandshakeBuild, key_of(6));
+    ListenerHandshake first(ticket(), kHandshakeBuild, key_of(5)), second(ticket(), kHandshakeBuild, key_of(4));
     first.take(guest.hello());
     guest.take(first.take_answer());
     const Bytes message = bytes_of(10);
@@ -216,8 +216,8 @@ TEST(Handshake, WhoRepeatsAnothersWordsIsNoGuest) {
 }
 
 TEST(Handshake, WhoSaysMuchAndProvesNothingIsCutOff) {
-    ListenerHandshake listener(ticket(), kBuild, key_of(5));
-    GuestHandshake guest(ticket(), kBuild, key_of(6));
+    ListenerHandshake listener(ticket(), kHandshakeBuild, key_of(5));
+    GuestHandshake guest(ticket(), kHandshakeBuild, key_of(6));
     listener.take(guest.hello());
     Bytes frame(kFrameHeadBytes);
     frame[1] = kMostUnprovenBytes >> 8;  // its length
@@ -229,8 +229,8 @@ TEST(Handshake, WhoSaysMuchAndProvesNothingIsCutOff) {
 
 TEST(Handshake, AForeignProtocolIsKnownByItsFirstBytes) {
     for (const std::size_t wrong : {std::size_t{0}, std::size_t{3}, std::size_t{4}, std::size_t{7}}) {
-        ListenerHandshake listener(ticket(), kBuild, key_of(5));
-        Bytes begin(GuestHandshake(ticket(), kBuild, key_of(6)).hello());
+        ListenerHandshake listener(ticket(), kHandshakeBuild, key_of(5));
+        Bytes begin(GuestHandshake(ticket(), kHandshakeBuild, key_of(6)).hello());
         begin.resize(8);
         begin[wrong] ^= 1;
         EXPECT_THROW(listener.take(begin), FormatError) << wrong;
@@ -238,8 +238,8 @@ TEST(Handshake, AForeignProtocolIsKnownByItsFirstBytes) {
 }
 
 TEST(Handshake, MayComeByteByByte) {
-    ListenerHandshake listener(ticket(), kBuild, key_of(5));
-    GuestHandshake guest(ticket(), kBuild, key_of(6));
+    ListenerHandshake listener(ticket(), kHandshakeBuild, key_of(5));
+    GuestHandshake guest(ticket(), kHandshakeBuild, key_of(6));
     for (const std::uint8_t byte : guest.hello())
         listener.take({&byte, 1});
     for (const std::uint8_t byte : listener.take_answer())

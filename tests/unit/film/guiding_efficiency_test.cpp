@@ -16,12 +16,12 @@
 namespace treefarm {
 namespace {
 
-constexpr std::size_t kWidth = 32, kPixels = kWidth * kWidth;
+constexpr std::size_t kEdge = 32, kSquare = kEdge * kEdge;
 constexpr std::uint32_t kSamples = 8;
 
 /// Pixels of mean 1, half of whose samples are 1 + deviation and half 1 - deviation.
 std::vector<PixelEstimate> pixels(float deviation, std::uint32_t samples = kSamples) {
-    std::vector<PixelEstimate> result(kPixels);
+    std::vector<PixelEstimate> result(kSquare);
     for (PixelEstimate& pixel : result)
         for (std::uint32_t s = 0; s < samples; ++s)
             pixel.add(s, Rgb(s % 2 == 0 ? 1 + deviation : 1 - deviation));
@@ -31,22 +31,22 @@ std::vector<PixelEstimate> pixels(float deviation, std::uint32_t samples = kSamp
 /// What workers count of such a pass: second moments of its own samples, and of unguided ones that deviate likewise.
 UnguidedSums sums_of(double guided, double unguided, double unguided_cost, std::uint32_t samples = kSamples) {
     UnguidedSums sums;
-    for (std::uint32_t p = 0; p < kPixels; ++p) {
+    for (std::uint32_t p = 0; p < kSquare; ++p) {
         UnguidedBlock block;
         for (std::uint32_t s = 0; s < samples; ++s)
             block.add(s % 2 == 0 ? 1 + guided : 1 - guided, 1 + unguided * unguided, unguided_cost);
-        block.finish(pixel_group(p % kWidth, p / kWidth), sums);
+        block.finish(pixel_group(p % kEdge, p / kEdge), sums);
     }
     return sums;
 }
 
 ImageLevels even_levels() {
-    return image_levels(std::vector<Rgb64>(kPixels, Rgb64(1.0)), kWidth);
+    return image_levels(std::vector<Rgb64>(kSquare, Rgb64(1.0)), kEdge);
 }
 
 /// Worth by pixels that deviate by a half, at 8 rays a sample.
 GuidingEfficiency efficiency_of(const UnguidedSums& sums, const ImageLevels& levels = even_levels()) {
-    return guiding_evidence(sums, pixels(0.5f), levels, kWidth, 8.0).efficiency();
+    return guiding_evidence(sums, pixels(0.5f), levels, kEdge, 8.0).efficiency();
 }
 
 TEST(GuidingEfficiency, IsVarianceTimesCostOfUnguidedOverGuidedSamples) {
@@ -168,7 +168,7 @@ class Automatic {
         Job job;
         job.guiding.type = GuidingType::automatic;
         job_ = test::resolved(job);
-        state_ = first_state(job_, first_model(job_, Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f), kPixels);
+        state_ = first_state(job_, first_model(job_, Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f), kSquare);
         const ImageLevels levels = even_levels();
         state_.tree.set_image({static_cast<std::uint32_t>(levels.columns), levels.inverse_levels, 0});
     }
@@ -178,13 +178,13 @@ class Automatic {
         PassReport report;
         report.plan = make_pass(job_, index_++, 64, spp, false);
         set_guiding(report.plan, job_, state_.history.guiding);
-        report.stats.paths = kPixels * spp;
+        report.stats.paths = kSquare * spp;
         report.stats.rays = 4 * report.stats.paths;
         if (report.plan.guided) report.stats.unguided = sums_of(double(deviation), unguided, 4.0, spp);
         state_.films.assign(1, {spp, 0, pixels(deviation, spp)});
         CombinedImage image;
-        image.mean.assign(kPixels, Rgb64(1.0));
-        judge(state_, job_, image, kWidth, report);
+        image.mean.assign(kSquare, Rgb64(1.0));
+        judge(state_, job_, image, kEdge, report);
         EXPECT_EQ(report.guiding, state_.history.guiding);
         guided = report.plan.guided;
         return report.guiding;
@@ -306,15 +306,15 @@ TEST(Automatic, AnImageWithoutLightStaysGuided) {
     Job job;
     job.guiding.type = GuidingType::automatic;
     const Resolved resolved = test::resolved(job);
-    RenderState state = first_state(resolved, first_model(resolved, Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f), kPixels);
+    RenderState state = first_state(resolved, first_model(resolved, Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f), kSquare);
     PassReport report;
     report.plan = make_pass(resolved, 1, 64, 64, false);
     report.stats.paths = 1000;
     report.stats.rays = 4000;
-    state.films.assign(1, {kSamples, 0, std::vector<PixelEstimate>(kPixels)});
+    state.films.assign(1, {kSamples, 0, std::vector<PixelEstimate>(kSquare)});
     CombinedImage image;
-    image.mean.assign(kPixels, Rgb64(0.0));
-    judge(state, resolved, image, kWidth, report);
+    image.mean.assign(kSquare, Rgb64(0.0));
+    judge(state, resolved, image, kEdge, report);
     EXPECT_EQ(report.guiding, Guiding::open);
     EXPECT_EQ(report.guiding_efficiency.efficiency, 0);
     EXPECT_TRUE(state.tree.regions().image.inverse_levels.empty());

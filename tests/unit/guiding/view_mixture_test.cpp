@@ -11,7 +11,7 @@
 namespace treefarm {
 namespace {
 
-MixtureHistogram only(int bin, double value = 1.0) {
+MixtureHistogram one_bin(int bin, double value = 1.0) {
     MixtureHistogram histogram{};
     histogram[static_cast<std::size_t>(bin)] = value;
     return histogram;
@@ -20,9 +20,9 @@ MixtureHistogram only(int bin, double value = 1.0) {
 constexpr int kOthersBin = kMixtureBins - 1, kViewBin = 0;
 
 TEST(ViewMixture, GainsNothingWhereT2IsOfNoUse) {
-    EXPECT_LE(view_gain(only(kOthersBin), 1.0), 0.0);
-    EXPECT_LT(view_gain(only(kOthersBin), 0.5), 0.0) << "what goes to the view is taken from what is needed";
-    EXPECT_GT(view_gain(only(kViewBin), 0.05), 3.0);
+    EXPECT_LE(view_gain(one_bin(kOthersBin), 1.0), 0.0);
+    EXPECT_LT(view_gain(one_bin(kOthersBin), 0.5), 0.0) << "what goes to the view is taken from what is needed";
+    EXPECT_GT(view_gain(one_bin(kViewBin), 0.05), 3.0);
     EXPECT_EQ(view_gain({}, 0.5), 0.0);
 }
 

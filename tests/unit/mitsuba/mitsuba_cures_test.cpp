@@ -14,7 +14,7 @@ using namespace treefarm::test;
 std::string shape(const std::string& inside) {
     return "<shape type=\"rectangle\">\n" + inside + "\n</shape>";
 }
-std::string bsdf(const std::string& type, const std::string& inside) {
+std::string bsdf_scene(const std::string& type, const std::string& inside) {
     return shape("<bsdf type=\"" + type + "\">\n" + inside + "\n</bsdf>");
 }
 std::string emitter(const std::string& type, const std::string& inside) {
@@ -43,7 +43,7 @@ std::string moved(const std::string& step) {
     return "<transform name=\"toWorld\">\n" + step + "</transform>";
 }
 std::string blend(const std::string& first, const std::string& second) {
-    return bsdf("blendbsdf", value("float", "weight", "0.5") + first + second);
+    return bsdf_scene("blendbsdf", value("float", "weight", "0.5") + first + second);
 }
 const std::string kDiffuse = "<bsdf type=\"diffuse\"/>", kGlass = "<bsdf type=\"dielectric\"/>";
 const std::string kBump = "<bsdf type=\"bumpmap\">" + bitmap("", "map") + kDiffuse + "</bsdf>";
@@ -108,49 +108,51 @@ std::vector<Fault> faults() {
         {guided(value("string", "budgetType", "spp") + value("float", "budget", "0.5"))},
         {guided(value("string", "budgetType", "foo"))},
         // materials
-        {bsdf("foo", "")},
-        {bsdf("difuse", "")},
-        {bsdf("irawan", "")},
-        {bsdf("hk", value("string", "material", "ketchupp"))},
-        {bsdf("hk", value("float", "sigmaT", "1"))},
-        {bsdf("hk", value("string", "material", "ketchup") + value("float", "sigmaS", "1"))},
-        {bsdf("hk", value("float", "sigmaA", "1") + value("float", "sigmaT", "1") + value("float", "albedo", "1"))},
-        {bsdf("hk", "<phase type=\"rayleigh\"/>")},
-        {bsdf("hk", "<phase type=\"hg\">" + value("float", "g", "1") + "</phase>")},
-        {bsdf("ward", value("string", "variant", "new"))},
-        {bsdf("principled", value("float", "specular", "2")), "3"},
-        {bsdf("coating", value("float", "thickness", "-1") + kDiffuse)},
-        {bsdf("twosided", value("boolean", "allowTransmission", "true") + kDiffuse), "3"},
-        {bsdf("twosided", kGlass)},
-        {bsdf("twosided", kDiffuse + kGlass)},
-        {bsdf("mask", value("float", "opacity", "2") + kDiffuse)},
-        {bsdf("mask", bitmap("", "opacity") + "<bsdf type=\"mask\">" + bitmap("", "opacity") + kDiffuse + "</bsdf>")},
-        {bsdf("bumpmap", bitmap("", "map") + kBump)},
+        {bsdf_scene("foo", "")},
+        {bsdf_scene("difuse", "")},
+        {bsdf_scene("irawan", "")},
+        {bsdf_scene("hk", value("string", "material", "ketchupp"))},
+        {bsdf_scene("hk", value("float", "sigmaT", "1"))},
+        {bsdf_scene("hk", value("string", "material", "ketchup") + value("float", "sigmaS", "1"))},
+        {bsdf_scene("hk",
+                    value("float", "sigmaA", "1") + value("float", "sigmaT", "1") + value("float", "albedo", "1"))},
+        {bsdf_scene("hk", "<phase type=\"rayleigh\"/>")},
+        {bsdf_scene("hk", "<phase type=\"hg\">" + value("float", "g", "1") + "</phase>")},
+        {bsdf_scene("ward", value("string", "variant", "new"))},
+        {bsdf_scene("principled", value("float", "specular", "2")), "3"},
+        {bsdf_scene("coating", value("float", "thickness", "-1") + kDiffuse)},
+        {bsdf_scene("twosided", value("boolean", "allowTransmission", "true") + kDiffuse), "3"},
+        {bsdf_scene("twosided", kGlass)},
+        {bsdf_scene("twosided", kDiffuse + kGlass)},
+        {bsdf_scene("mask", value("float", "opacity", "2") + kDiffuse)},
+        {bsdf_scene("mask",
+                    bitmap("", "opacity") + "<bsdf type=\"mask\">" + bitmap("", "opacity") + kDiffuse + "</bsdf>")},
+        {bsdf_scene("bumpmap", bitmap("", "map") + kBump)},
         {blend(kDiffuse, kTwosided)},
         {blend(kFaces, kFaces)},
-        {bsdf("blendbsdf", value("float", "weight", "2") + kDiffuse + kDiffuse)},
-        {bsdf("mixturebsdf", value("string", "weights", "-1, 0.5") + kDiffuse + kDiffuse)},
-        {bsdf("mixturebsdf", value("string", "weights", "0") + kDiffuse)},
-        {bsdf("diffuse", value("rgb", "reflectance", "-1"))},
-        {bsdf("diffuse", value("rgb", "reflectance", "2")), "3"},
-        {bsdf("dielectric", value("string", "intIOR", "watr"))},
-        {bsdf("dielectric", value("float", "intIOR", "200"))},
-        {bsdf("conductor",
-              value("string", "material", "Au") + "\n" + value("rgb", "eta", "1") + value("rgb", "k", "1")),
+        {bsdf_scene("blendbsdf", value("float", "weight", "2") + kDiffuse + kDiffuse)},
+        {bsdf_scene("mixturebsdf", value("string", "weights", "-1, 0.5") + kDiffuse + kDiffuse)},
+        {bsdf_scene("mixturebsdf", value("string", "weights", "0") + kDiffuse)},
+        {bsdf_scene("diffuse", value("rgb", "reflectance", "-1"))},
+        {bsdf_scene("diffuse", value("rgb", "reflectance", "2")), "3"},
+        {bsdf_scene("dielectric", value("string", "intIOR", "watr"))},
+        {bsdf_scene("dielectric", value("float", "intIOR", "200"))},
+        {bsdf_scene("conductor",
+                    value("string", "material", "Au") + "\n" + value("rgb", "eta", "1") + value("rgb", "k", "1")),
          "3"},
-        {bsdf("conductor", value("string", "material", "Aau"))},
-        {bsdf("roughconductor", value("float", "alpha", "-1"))},
-        {bsdf("roughconductor", value("string", "distribution", "phong"))},
-        {bsdf("roughconductor", value("string", "distribution", "foo"))},
+        {bsdf_scene("conductor", value("string", "material", "Aau"))},
+        {bsdf_scene("roughconductor", value("float", "alpha", "-1"))},
+        {bsdf_scene("roughconductor", value("string", "distribution", "phong"))},
+        {bsdf_scene("roughconductor", value("string", "distribution", "foo"))},
         // textures
-        {bsdf("diffuse", bitmap(value("string", "wrapMode", "foo")))},
-        {bsdf("diffuse", bitmap(value("string", "filterType", "foo")))},
-        {bsdf("diffuse", bitmap(value("string", "coordinates", "foo"))), "0"},
-        {bsdf("diffuse", bitmap(value("string", "channel", "z"))), "0"},
-        {bsdf("diffuse", bitmap(value("float", "gamma", "-3"))), "0"},
-        {bsdf("diffuse", "<texture type=\"foo\" name=\"reflectance\"/>")},
-        {bsdf("diffuse", "<texture type=\"unifrm\" name=\"reflectance\"/>")},
-        {bsdf("diffuse", "<texture type=\"checkerbord\" name=\"reflectance\"/>")},
+        {bsdf_scene("diffuse", bitmap(value("string", "wrapMode", "foo")))},
+        {bsdf_scene("diffuse", bitmap(value("string", "filterType", "foo")))},
+        {bsdf_scene("diffuse", bitmap(value("string", "coordinates", "foo"))), "0"},
+        {bsdf_scene("diffuse", bitmap(value("string", "channel", "z"))), "0"},
+        {bsdf_scene("diffuse", bitmap(value("float", "gamma", "-3"))), "0"},
+        {bsdf_scene("diffuse", "<texture type=\"foo\" name=\"reflectance\"/>")},
+        {bsdf_scene("diffuse", "<texture type=\"unifrm\" name=\"reflectance\"/>")},
+        {bsdf_scene("diffuse", "<texture type=\"checkerbord\" name=\"reflectance\"/>")},
         {emitter("point", bitmap("", "intensity"))},
         // shapes
         {"<shape type=\"foo\"/>"},
@@ -248,7 +250,7 @@ TEST_F(MitsubaCures, Help) {
 }
 
 TEST_F(MitsubaCures, WrongOnesAreFound) {
-    const std::string text = document(bsdf("diffuse", bitmap(value("string", "filterType", "foo"))), '3');
+    const std::string text = document(bsdf_scene("diffuse", bitmap(value("string", "filterType", "foo"))), '3');
     const auto real = refusal(text);
     ASSERT_TRUE(real);
     EXPECT_EQ(broken_promises(text, *real), "");

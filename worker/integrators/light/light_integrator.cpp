@@ -88,8 +88,8 @@ class Connections {
 template <class Surface>
 class LightTracer {
   public:
-    LightTracer(const TraceScene& scene, const Sensor& sensor, const LightPathRules& rules, const EmissionChoice& choice,
-                EmissionRecord& record, UnitOutput& output)
+    LightTracer(const TraceScene& scene, const Sensor& sensor, const LightPathRules& rules,
+                const EmissionChoice& choice, EmissionRecord& record, UnitOutput& output)
         : scene_(scene),
           sensor_(sensor),
           rules_(rules),
