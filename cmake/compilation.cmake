@@ -6,16 +6,18 @@
 #   tests -O1. A linker keeps one copy of an inline function that several files emit, and it may be a cold file's, so a cold file
 #   must not instantiate what a path runs through (bench/effect_cost counts instructions). Levels change no bit
 #   (-ffp-contract=off; tests/tools/same_images).
-# - Cold files are compiled six at a time: our own headers are most of what is parsed, and their inline functions most of
-#   what is generated. -DTREEFARM_UNITY=OFF compiles each by itself, as editors and clang-tidy want it (preset tidy).
-option(TREEFARM_UNITY "compile files of modules that do not trace several at a time" ON)
-set(TREEFARM_UNITY_FILES 6 CACHE STRING "files compiled as one")
-option(TREEFARM_UNITY_HOT "" OFF)
+# - Files are compiled several at a time, but kernels: our own headers are most of what is parsed, and their inline functions
+#   most of what is generated. Six suit who edits; deploy/ builds from nothing with thirty. -DTREEFARM_UNITY=OFF compiles each
+#   by itself, as editors and clang-tidy want it (preset by-file).
+option(TREEFARM_UNITY "compile several files at a time" ON)
+option(TREEFARM_UNITY_KERNELS "also those of kernels, whose speed depends on what is inlined" OFF)
+set(TREEFARM_UNITY_FILES 6 CACHE STRING "files that are compiled as one")
 set(TREEFARM_COLD_LEVEL "" CACHE STRING "level of cold files; empty: -O2, and -O1 for tests, in a release build by g++")
 
 # Modules whose speed matters stay as they are. The others, and every test, are cold.
 set(TREEFARM_HOT base film guiding image metrics textures geometry shading lights camera trace_scene integrators tools worker)
 list(TRANSFORM TREEFARM_HOT PREPEND tf_)
+set(TREEFARM_KERNELS tf_shading tf_trace_scene tf_integrators mpi_test)
 
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled.cpp CONTENT "// carries the precompiled headers\n")
 function(treefarm_precompiled NAME)
@@ -30,9 +32,6 @@ function(treefarm_precompiled NAME)
         <optional> <random> <set> <span> <sstream> <string> <thread> <variant> <vector>)
 endfunction()
 treefarm_precompiled(tf_precompiled)
-
-# Tests whose files each have helpers of the same names: by themselves.
-set(TREEFARM_FILE_BY_FILE mpi_test)
 
 # treefarm_targets(OUT DIRECTORY): libraries and programs of a folder and those below it.
 function(treefarm_targets OUT DIRECTORY)
@@ -74,11 +73,9 @@ function(treefarm_compile_all)
                 target_compile_options(${target} PRIVATE ${program_level})
             endif()
         endif()
-        if(TREEFARM_UNITY_HOT OR (NOT target MATCHES "^tf_(integrators|shading|trace_scene)$" AND NOT folder STREQUAL "bench"))
-            if(NOT target IN_LIST TREEFARM_FILE_BY_FILE)
-                set_target_properties(${target} PROPERTIES UNITY_BUILD ${TREEFARM_UNITY}
-                                      UNITY_BUILD_BATCH_SIZE ${TREEFARM_UNITY_FILES})
-            endif()
+        if(NOT folder STREQUAL "bench" AND (TREEFARM_UNITY_KERNELS OR NOT target IN_LIST TREEFARM_KERNELS))
+            set_target_properties(${target} PROPERTIES UNITY_BUILD ${TREEFARM_UNITY}
+                                  UNITY_BUILD_BATCH_SIZE ${TREEFARM_UNITY_FILES})
         endif()
     endforeach()
 endfunction()
