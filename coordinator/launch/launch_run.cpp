@@ -146,7 +146,6 @@ class LaunchRun {
         child_.reset();
         clean_up();
         if (seen_) planner_.note_end(seen_->workers);
-        taken_ = taken_ || (seen_ && seen_->phase >= LifePhase::pass && seen_->phase <= LifePhase::write);
         seen_.reset();
     }
 
@@ -182,7 +181,8 @@ class LaunchRun {
         StartPlan plan = planner_.plan(folder_.own() / ("hostfile-" + std::to_string(number)));
         folders_ = std::make_unique<AttemptFolders>(plan, key_file());
         if (!folders_->trouble().empty()) note(folders_->trouble());
-        const bool goes_on = number > 1 && (taken_ || folder_.was_taken_by(launch_));
+        if (number == 1) was_empty_ = folder_content(folder_.run()) == FolderContent::nothing;
+        const bool goes_on = number > 1 && (was_empty_ || folder_.was_taken_by(launch_));
         const std::vector<std::string> words = goes_on ? command_.again(folder_.checkpoint() > 0) : command_.first();
         const std::vector<std::string> command = start_command(plan, words);
         note("attempt " + std::to_string(number) + ": " + shell_line(command));
@@ -298,7 +298,7 @@ class LaunchRun {
     std::string not_started_;         ///< reason why the attempt could not be started; "" if it was
     std::string start_trouble_;       ///< that reason if it is a disk's, until it is reported
     bool started_ = false;            ///< whether any attempt was started
-    bool taken_ = false;              ///< whether any attempt has rendered in the run directory
+    bool was_empty_ = false;          ///< whether the run directory was, so that all in it is of the attempts
     std::unique_ptr<ChildProcess> child_;
     std::unique_ptr<HostKeys> host_keys_;
     Supervisor supervisor_;

@@ -132,7 +132,7 @@ int sweep_keys() {
 fs::path temporary_folder() {
     const char* const asked = std::getenv("TMPDIR");
     std::error_code error;
-    // Open MPI does not use a folder that is missing either.
+    // mpirun would make a missing folder, and leave it.
     return asked && fs::is_directory(asked, error) ? fs::absolute(asked) : fs::path("/tmp");
 }
 

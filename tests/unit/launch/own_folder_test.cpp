@@ -155,15 +155,16 @@ TEST_F(Sweep, FoldersOfAnAttemptAreMadeAgainAndSharedMemoryGoesElsewhereIfItMust
     EXPECT_NE(crowded.trouble().find("has no room"), std::string::npos);
 }
 
-TEST(OwnFolder, SaysWhyItCannotBeMade) {
+TEST_F(Sweep, AFolderThatCannotBeMadeSaysWhy) {
+    const fs::path gone = folder / "gone";
     try {
-        const OwnFolder folder("/nowhere");
+        const OwnFolder own(gone);
         FAIL();
     } catch (const FileError& error) {
         EXPECT_EQ(error.code(), ENOENT);
-        EXPECT_STREQ(error.what(), "/nowhere: no folder can be made in it (No such file or directory)");
+        EXPECT_EQ(error.what(), gone.string() + ": no folder can be made in it (No such file or directory)");
     }
-    EXPECT_THROW(probe_folder("/nowhere"), FileError);
+    EXPECT_THROW(probe_folder(gone), FileError);
 }
 
 }  // namespace

@@ -116,6 +116,7 @@ TEST(Supervisor, ADiskThatTakesNoFilesIsWaitedForAndCountsForNothing) {
             EXPECT_EQ(world.attempt, k + 1);
         }
         EXPECT_FALSE(world.end);
+        world.run_to_pass();
         world.finish(0);
         world.step();
         ASSERT_TRUE(world.end);
