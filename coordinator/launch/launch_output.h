@@ -15,8 +15,8 @@ class LaunchOutput {
   public:
     /// Whole lines, printable, each with its end.
     struct Lines {
-        std::string log;       ///< all of them
-        std::string terminal;  ///< those that mean something to a user
+        std::string log;       ///< every line
+        std::string terminal;  ///< the lines that mean something to a user
     };
     /// Takes further output and returns the lines that it completes. `is_alive`: the coordinator has given a sign of
     /// life; from then on Open MPI's words about lost processes and signals, which our own messages explain, are only
