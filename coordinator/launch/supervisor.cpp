@@ -53,8 +53,7 @@ std::optional<SupervisorEnd> Supervisor::step(const Sight& sight) {
     forgive_gap(sight.now);
     if (state_ == State::waiting) {
         if (stops_ > 0) return SupervisorEnd{kInterrupted, "interrupted", attempt_ > 0};
-        if (sight.now >= due_ && !waits_for_disk(sight)) start(sight.now);
-        return std::nullopt;
+        return start_when_due(sight);
     }
     look(sight);
     if (!sight.running) return gone(sight);
@@ -90,11 +89,19 @@ void Supervisor::start(double now) {
     actions_.start(attempt_);
 }
 
-/// Whether a further attempt must wait until files can be written. The first one may fail and say why.
-bool Supervisor::waits_for_disk(const Sight& sight) {
-    if (attempt_ == 0 || sight.disk.empty()) return false;
-    if (std::exchange(told_disk_, sight.disk) != sight.disk) actions_.say("waiting for the disk: " + sight.disk);
-    return true;
+/// Starts the next attempt once files can be written; the first one may fail and say why.
+std::optional<SupervisorEnd> Supervisor::start_when_due(const Sight& sight) {
+    if (sight.now < due_) return std::nullopt;
+    if (attempt_ > 0 && !sight.disk.empty()) {
+        if (sight.now - due_ > limits_.disk_all)
+            return SupervisorEnd{
+                kFailed,
+                fmt::format("the disk has taken no files for {:.0f} h: {}", limits_.disk_all / 3600, sight.disk), true};
+        if (std::exchange(told_disk_, sight.disk) != sight.disk) actions_.say("waiting for the disk: " + sight.disk);
+        return std::nullopt;
+    }
+    start(sight.now);
+    return std::nullopt;
 }
 
 /// Reads the heartbeat.

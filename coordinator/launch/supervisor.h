@@ -19,12 +19,13 @@ struct SupervisorLimits {
     double stall_multiple = 5;  ///< whichever is longer
     /// from the last heartbeat of a coordinator that knows its exit code to its launcher's end
     double leave = 15;
-    double leave_all = 600;  ///< from that code to the launcher's end, with or without heartbeats
-    double stop = 30;        ///< without progress, after it was told to stop
-    double terminate = 3;    ///< between SIGTERM and SIGKILL
-    double disk = 5;         ///< between an attempt that the disk refused and the next one
-    int restarts = 5;        ///< in a row without progress
-    int attempts = 100;      ///< in total
+    double leave_all = 600;   ///< from that code to the launcher's end, with or without heartbeats
+    double stop = 30;         ///< without progress, after it was told to stop
+    double terminate = 3;     ///< between SIGTERM and SIGKILL
+    double disk = 5;          ///< between an attempt that the disk refused and the next one
+    double disk_all = 43200;  ///< for which the disk takes no files
+    int restarts = 5;         ///< in a row without progress
+    int attempts = 100;       ///< in total
 };
 
 /// Observations of a supervisor at one moment.
@@ -78,7 +79,7 @@ class Supervisor {
 
     void forgive_gap(double now);
     void start(double now);
-    bool waits_for_disk(const Sight& sight);
+    std::optional<SupervisorEnd> start_when_due(const Sight& sight);
     void look(const Sight& sight);
     void watch(const Sight& sight);
     void watch_stop(const Sight& sight);

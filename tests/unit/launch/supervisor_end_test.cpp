@@ -141,6 +141,20 @@ TEST(Supervisor, AnAttemptThatTheDiskDoesNotLetStartIsRepeatedWithoutCounting) {
     EXPECT_EQ(world.said.size(), 1u) << "it is said once";
 }
 
+TEST(Supervisor, ADiskThatNobodyEmptiesIsGivenUp) {
+    LaunchWorld world;
+    world.run_to_pass();
+    world.disk = "run: No space left on device";
+    world.die();
+    world.pass(12 * 3600);
+    EXPECT_FALSE(world.end);
+    world.pass(60);
+    ASSERT_TRUE(world.end);
+    EXPECT_EQ(world.end->code, 1);
+    EXPECT_TRUE(world.end->resumable);
+    EXPECT_EQ(world.end->words, "the disk has taken no files for 12 h: run: No space left on device");
+}
+
 TEST(Supervisor, ADiskThatIsFullAtOnceIsAnError) {
     LaunchWorld world;
     world.disk = "run: No space left on device";
