@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <thread>
 
@@ -60,9 +61,12 @@ fs::path ticket_file(const JoinOptions& options) {
            "start it with --set farm.join=true");
 }
 
-/// Whether the render has ended for good.
-bool is_done(const JoinOptions& options) {
-    return !options.run.empty() && text_in(read_run_json(fs::path(options.run) / kSummaryFile), "state") == "done";
+/// Whether the render has ended for good: it is done; or a user ended it, unless this worker was told to wait. A killed
+/// or failed one may be started again.
+bool is_over(const JoinOptions& options) {
+    if (options.run.empty()) return false;
+    const std::string state = text_in(read_run_json(fs::path(options.run) / kStatusFile), "state");
+    return state == "done" || (state == "interrupted" && !options.wait_seconds);
 }
 
 /// A worker that joins a run, and rejoins after each loss of its connection.
@@ -75,20 +79,20 @@ class Guest {
 
     /// Runs the worker; returns the exit code.
     int run() {
-        std::unique_ptr<Channel> channel = knock(options_.wait_seconds.value_or(0.0));
+        std::unique_ptr<Channel> channel = knock(options_.wait_seconds.value_or(0.0), [] { return false; });
         for (;;) {
             InterruptWatch watch;  // not before the first connection: until then there is nothing to give back
             settings_.told_to_leave = [&] { return told_ = told_ || watch.interrupted(); };
             const bool lost = run_worker(*channel, settings_, make_renderer, log_) == WorkerEnd::orphaned;
             channel.reset();
             if (told_) return end("left the render, as it was told");
-            if (is_done(options_) || !(lost || options_.wait_seconds)) return end("the render is over");
+            if (is_over(options_) || !(lost || options_.wait_seconds)) return end("the render is over");
             const double patience = options_.wait_seconds.value_or(kReturnSeconds);
             log_->info("waiting {:.3g} s for the render to come back", patience);
             try {
-                channel = knock(patience);
+                channel = knock(patience, [this] { return is_over(options_); });
             } catch (const InputError& error) {
-                if (is_done(options_)) return end("the render is over");
+                if (is_over(options_)) return end("the render is over");
                 log_->error("{}", error.what());
                 return 1;
             }
@@ -104,14 +108,15 @@ class Guest {
         return channel;
     }
 
-    /// Connects; throws InputError if that fails for `patience` seconds. Returns nullptr if told to leave meanwhile.
-    std::unique_ptr<Channel> knock(double patience) {
+    /// Connects; throws InputError if that fails for `patience` seconds, or `in_vain` is true meanwhile. Returns
+    /// nullptr if told to leave.
+    std::unique_ptr<Channel> knock(double patience, const std::function<bool()>& in_vain) {
         const Timer timer;
         for (double pause = kFirstPause;; pause = std::min(2 * pause, kLongestPause)) {
             try {
                 return knock_once();
             } catch (const InputError&) {
-                if (timer.seconds() + pause > patience) throw;
+                if (timer.seconds() + pause > patience || in_vain()) throw;
             }
             if (rest(pause)) return nullptr;
         }

@@ -11,6 +11,7 @@
 #include "common/base/error.h"
 #include "common/comm/run_key.h"
 #include "coordinator/launch/host_keys.h"
+#include "coordinator/launch/start_command.h"
 
 namespace treefarm {
 
@@ -63,6 +64,7 @@ LaunchEnvironment read_launch_environment() {
     // an interactive shell does not start many tasks
     if (!launch.under_mpi && !isatty(STDIN_FILENO)) find_lone_tasks(launch);
     launch.terminal = read_terminal(launch.under_mpi);
+    if (const char* text = std::getenv(kWarningsVariable)) launch.warnings = text;
     if (const char* text = std::getenv(kAttemptVariable))
         if (const LifeAttempt attempt = parse_attempt(text); !attempt.name.empty()) {
             launch.key_file = attempt.file.parent_path() / kRunKeyName;

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "common/base/terminal.h"
 #include "coordinator/run/sign_of_life.h"
@@ -22,6 +23,7 @@ struct LaunchEnvironment {
     bool by_slurm = false;             ///< they were started by srun
     TerminalKind terminal;             ///< of standard error; nothing is drawn under mpirun
     std::shared_ptr<SignOfLife> life;  ///< heartbeat of a coordinator that treefarm launch started; else nullptr
+    std::string warnings;              ///< of treefarm launch, for the render's log: hosts that it left out
     std::filesystem::path key_file;    ///< key file, for processes that treefarm launch started; else empty
 };
 LaunchEnvironment read_launch_environment();

@@ -53,6 +53,7 @@ int render_on_farm(const LaunchEnvironment& launch, const FarmOptions& farm, con
         }
         request.workers = workers;
         if (launch.life) request.origin.attempt = launch.life->attempt();
+        request.origin.launch_warnings = launch.warnings;
         Progress shown(log_output.console, request.content.job.budget);
         const RenderObserver observer = make_observer(log_output, launch.life);
         const RenderOutcome outcome = render(request, shown_by(shown, observer));

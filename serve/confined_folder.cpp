@@ -3,14 +3,17 @@
 
 #include <dirent.h>
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <memory>
 #include <string_view>
 
 #include "common/base/descriptor.h"
+#include "common/runs/run_files.h"
 
 namespace treefarm {
 
@@ -97,6 +100,16 @@ std::optional<FileVersion> ConfinedFolder::version(const std::string& path) cons
     if (!open_file(root_, path, facts)) return std::nullopt;
     return FileVersion{facts.st_ino, static_cast<std::uint64_t>(facts.st_size),
                        facts.st_mtim.tv_sec * std::int64_t{1000000000} + facts.st_mtim.tv_nsec};
+}
+
+bool ConfinedFolder::is_locked(const std::string& path) const {
+    const auto is_held = [](const Descriptor& lock) {
+        return lock && ::flock(lock.fd(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    };
+    struct stat facts {};
+    // The file is for network file systems.
+    return is_held(open_within(root_, path, kFolder)) ||
+           is_held(open_file(root_, joined_path(path, kLockFileName), facts));
 }
 
 std::vector<std::string> ConfinedFolder::folders(const std::string& path, std::size_t most) const {

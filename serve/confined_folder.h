@@ -31,6 +31,8 @@ class ConfinedFolder {
     /// At most `most` bytes at the end of a file.
     std::optional<std::string> read_end(const std::string& path, std::size_t most) const;
     std::optional<FileVersion> version(const std::string& path) const;
+    /// Whether a program holds the lock of a folder (FolderLock), in whatever container of this machine.
+    bool is_locked(const std::string& path) const;
     /// Names of a folder's subfolders, at most `most`, without links.
     std::vector<std::string> folders(const std::string& path, std::size_t most) const;
 

@@ -40,15 +40,17 @@ int process_of(const FileJson& status) {
     return number > 0 && number <= std::numeric_limits<int>::max() ? static_cast<int>(number) : 0;
 }
 
-std::string state_of(const FileJson& status, const Here& here) {
+std::string state_of(const FileJson& status, const Here& here, const std::function<bool()>& is_locked) {
     const FileJson state = text_of(status, "state");
     if (!state.is_string()) return "unknown";
     const FileJson time = number_of(status, "time");
     if (state != "running" || !time.is_number()) return state;
     const double age = static_cast<double>(here.now) - time.get<double>();
     const int process = process_of(status);
-    // Process numbers may be those of a container with this machine's name: a render that still writes is alive.
-    if (age > kGone && process > 0 && text_of(status, "host") == here.host && !here.has_process(process))
+    // Process numbers may be those of a container with this machine's name: a render that still writes, or holds the
+    // lock of its folder, is alive.
+    if (age > kGone && process > 0 && text_of(status, "host") == here.host && !here.has_process(process) &&
+        !is_locked())
         return "killed";
     return age > kSilence ? "silent" : state;
 }
@@ -56,7 +58,7 @@ std::string state_of(const FileJson& status, const Here& here) {
 RunFiles read_files(const ConfinedFolder& root, const std::string& path, const Here& here) {
     RunFiles files;
     files.status = read_object(root, joined_path(path, kStatusFile));
-    files.state = state_of(files.status, here);
+    files.state = state_of(files.status, here, [&] { return root.is_locked(path); });
     files.summary = read_object(root, joined_path(path, kSummaryFile));
     // Before the end, summary.json is from before a resume.
     if (files.summary.value("state", FileJson()) != files.status.value("state", FileJson()))

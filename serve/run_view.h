@@ -19,8 +19,9 @@ struct Here {
 Here local_host();
 
 /// Entry of a run in the list, from its files: name, state, progress, error, version of its picture. Figures of a
-/// missing, incomplete or foreign file are null. `state`: that of status.json; "killed" if that is "running" and its
-/// process is gone from this machine; "silent" if it was not written for a minute; or "unknown".
+/// missing, incomplete or foreign file are null. `state`: that of status.json; "killed" if that is "running" and
+/// its process and its lock of the folder are gone from this machine; "silent" if it was not written for a minute; or
+/// "unknown".
 nlohmann::ordered_json run_entry(const ConfinedFolder& root, const std::string& path, const Here& here);
 
 /// run_entry(), with the other contents of a run's page: workers, forecasts, passes, the end of the log, how it ended,

@@ -11,6 +11,7 @@
 
 #include "common/base/descriptor.h"
 #include "common/base/error.h"
+#include "common/base/files/atomic_file.h"
 
 namespace treefarm {
 
@@ -34,10 +35,12 @@ fs::path temporary_of(const fs::path& path) {
 bool write_new(const fs::path& path, const std::string& text) {
     const Descriptor file = Descriptor::open(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, 0600);
     struct stat status {};
-    if (!file || ::fchmod(file.fd(), 0600) != 0 ||
-        ::write(file.fd(), text.data(), text.size()) != static_cast<ssize_t>(text.size()) ||
-        ::fstat(file.fd(), &status) != 0)
+    if (!file || ::fchmod(file.fd(), 0600) != 0 || ::fstat(file.fd(), &status) != 0) return false;
+    const ssize_t written = ::write(file.fd(), text.data(), text.size());
+    if (written != static_cast<ssize_t>(text.size())) {
+        if (written >= 0) errno = ENOSPC;
         return false;
+    }
     if ((status.st_mode & 077) != 0) errno = EPERM;
     return (status.st_mode & 077) == 0;
 }
@@ -60,7 +63,7 @@ void write_private_file(const fs::path& path, const std::string& text) {
     if (write_new(temporary, text) && ::rename(temporary.c_str(), path.c_str()) == 0) return;
     const int error = errno;
     ::unlink(temporary.c_str());
-    throw RunError(path.string() + ": cannot be written: " + std::strerror(error));
+    throw FileError(path.string() + ": cannot be written: " + std::strerror(error), error);
 }
 
 std::string read_private_file(const fs::path& path, std::size_t most_bytes, const std::string& cure) {

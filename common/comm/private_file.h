@@ -7,7 +7,7 @@
 
 namespace treefarm {
 
-/// Writes a file with a secret atomically, readable by its owner alone. Throws RunError.
+/// Writes a file with a secret atomically, readable by its owner alone. Throws FileError.
 void write_private_file(const std::filesystem::path& path, const std::string& text);
 
 /// Text of a file that only this user can read, at most `most_bytes`. Throws InputError if it cannot be read, with

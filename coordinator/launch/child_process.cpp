@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -25,12 +26,13 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
     return list;
 }
 
-std::vector<std::string> environment_with(const std::string& variable) {
-    std::vector<std::string> variables;
-    const std::string name = variable.substr(0, variable.find('=') + 1);
-    for (char** at = environ; *at; ++at)
-        if (std::strncmp(*at, name.c_str(), name.size()) != 0) variables.emplace_back(*at);
-    variables.push_back(variable);
+std::vector<std::string> environment_with(const std::vector<std::string>& added) {
+    std::vector<std::string> variables = added;
+    for (char** at = environ; *at; ++at) {
+        const std::string variable = *at, name = variable.substr(0, variable.find('=') + 1);
+        if (std::none_of(added.begin(), added.end(), [&](const std::string& a) { return a.starts_with(name); }))
+            variables.push_back(variable);
+    }
     return variables;
 }
 
@@ -59,10 +61,10 @@ std::vector<std::string> environment_with(const std::string& variable) {
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::vector<std::string>& words, const std::string& variable, Heard heard,
-                           const std::string& input) {
-    std::vector<std::string> arguments = words, variables = environment_with(variable);
-    const std::vector<char*> argument_list = pointers(arguments), variable_list = pointers(variables);
+ChildProcess::ChildProcess(const std::vector<std::string>& words, const std::vector<std::string>& variables,
+                           Heard heard, const std::string& input) {
+    std::vector<std::string> arguments = words, environment = environment_with(variables);
+    const std::vector<char*> argument_list = pointers(arguments), variable_list = pointers(environment);
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) throw RunError(std::string("cannot make a pipe: ") + std::strerror(errno));
     const pid_t parent = getpid();

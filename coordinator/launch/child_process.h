@@ -13,10 +13,10 @@ namespace treefarm {
 class ChildProcess {
   public:
     enum class Heard { errors, all };  ///< standard error alone, or with standard output
-    /// `variable`: "NAME=value", added to its environment. `input`: a file for its standard input; empty: none. Throws
+    /// `variables`: "NAME=value", added to its environment. `input`: a file for its standard input; empty: none. Throws
     /// RunError if it cannot be started; a missing program ends with code 127.
-    ChildProcess(const std::vector<std::string>& words, const std::string& variable, Heard heard = Heard::errors,
-                 const std::string& input = "");
+    explicit ChildProcess(const std::vector<std::string>& words, const std::vector<std::string>& variables = {},
+                          Heard heard = Heard::errors, const std::string& input = "");
     /// Kills the process.
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;

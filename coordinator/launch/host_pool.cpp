@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "common/base/error.h"
 #include "common/base/text/parse_text.h"
 
 namespace treefarm {
@@ -22,13 +23,19 @@ bool is_address(const std::string& host) {
 
 }  // namespace
 
-std::vector<HostLine> parse_hostfile(const std::string& text) {
+std::vector<HostLine> parse_hostfile(const std::string& text, const std::string& file) {
     std::vector<HostLine> hosts;
     std::istringstream lines(text);
+    int number = 0;
     for (std::string line; std::getline(lines, line);) {
+        ++number;
         std::istringstream words(line.substr(0, line.find('#')));
         HostLine host;
         if (!(words >> host.host)) continue;
+        if (host.host.starts_with('-') || host.host.find("@-") != std::string::npos)
+            throw InputError(Location{file, number, static_cast<int>(line.find(host.host)) + 1},
+                             "\"" + host.host + "\" is no host: ssh would take it for an option",
+                             "begin each line with a host's name: node1 slots=2");
         host.text = line;
         for (std::string word; words >> word;)
             if (word.starts_with("slots="))

@@ -17,8 +17,9 @@ struct HostLine {
     std::string text;  ///< the whole line
 };
 
-/// Hosts of a hostfile; comments and empty lines are skipped.
-std::vector<HostLine> parse_hostfile(const std::string& text);
+/// Hosts of a hostfile; comments and empty lines are skipped. Throws InputError for a name that ssh would take for an
+/// option. `file`: name of the file, for the message.
+std::vector<HostLine> parse_hostfile(const std::string& text, const std::string& file = "hostfile");
 /// Text of a hostfile with these hosts.
 std::string hostfile_text(const std::vector<HostLine>& hosts);
 
@@ -38,11 +39,13 @@ class HostPool {
     void note_end(const std::vector<LifeWorker>& workers);
 
     const std::vector<HostLine>& all() const { return hosts_; }
+    /// Hosts skipped in the next attempt.
+    const std::set<std::string>& resting() const { return resting_; }
 
   private:
     std::vector<HostLine> hosts_;
     std::map<std::string, int> losses_;  ///< per host: number of attempts that lost workers there
-    std::set<std::string> resting_;      ///< hosts skipped in the next attempt
+    std::set<std::string> resting_;
 };
 
 }  // namespace treefarm

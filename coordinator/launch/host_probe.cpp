@@ -6,11 +6,13 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <list>
 #include <sstream>
 #include <thread>
 
 #include "common/base/host.h"
+#include "common/base/text/printable.h"
 #include "common/base/timer.h"
 #include "coordinator/launch/child_process.h"
 
@@ -23,18 +25,17 @@ using Words = std::vector<std::string>;
 /// Seconds for a host's answer.
 constexpr double kProbeSeconds = 10.0;
 
-/// A variable without any effect.
-const char* const kNothing = "TREEFARM_PROBE=1";
+/// Words of Open MPI's agent; empty: ssh.
+Words agent_words() {
+    const char* const agent = std::getenv("OMPI_MCA_plm_rsh_agent");
+    std::istringstream parts(agent ? agent : "");
+    return Words(std::istream_iterator<std::string>(parts), {});
+}
 
+/// `host` is no option (parse_hostfile()); an agent need not know "--".
 Words host_command(const std::string& host, const std::string& line) {
-    Words words;
-    if (const char* agent = std::getenv("OMPI_MCA_plm_rsh_agent"); agent && *agent) {
-        std::istringstream parts(agent);
-        for (std::string part; parts >> part;)
-            words.push_back(part);
-    } else {
-        words = {"ssh", "-o", "BatchMode=yes", "-o", "ConnectTimeout=5"};
-    }
+    Words words = agent_words();
+    if (words.empty()) words = {"ssh", "-o", "BatchMode=yes", "-o", "ConnectTimeout=5", "--"};
     words.push_back(host);
     words.push_back(line);
     return words;
@@ -47,21 +48,26 @@ bool is_here(const std::string& host) {
 }  // namespace
 
 std::set<std::string> failing_hosts(const std::vector<HostLine>& hosts, const std::string& shell_line, double seconds,
-                                    const std::filesystem::path& input) {
+                                    const std::filesystem::path& input, std::map<std::string, std::string>* said) {
     std::list<std::pair<std::string, ChildProcess>> probes;
     for (const HostLine& line : hosts)
         if (!is_here(line.host))
             probes.emplace_back(std::piecewise_construct, std::forward_as_tuple(line.host),
-                                std::forward_as_tuple(host_command(line.host, shell_line), kNothing,
+                                std::forward_as_tuple(host_command(line.host, shell_line), Words(),
                                                       ChildProcess::Heard::all, input.string()));
+    const auto hear = [said](auto& probe) {
+        const std::string words = probe.second.take_words();
+        if (said) (*said)[probe.first] += words;
+    };
     const Timer timer;
     std::set<std::string> failing;
     while (!probes.empty() && timer.seconds() < seconds) {
         for (auto probe = probes.begin(); probe != probes.end();)
             if (probe->second.running()) {
-                probe->second.take_words();
+                hear(*probe);
                 ++probe;
             } else {
+                hear(*probe);
                 if (!probe->second.succeeded()) failing.insert(probe->first);
                 probe = probes.erase(probe);
             }
@@ -72,8 +78,19 @@ std::set<std::string> failing_hosts(const std::vector<HostLine>& hosts, const st
     return failing;
 }
 
-std::set<std::string> unreachable_hosts(const std::vector<HostLine>& hosts) {
-    return failing_hosts(hosts, "true", kProbeSeconds);
+std::map<std::string, std::string> unreachable_hosts(const std::vector<HostLine>& hosts) {
+    std::map<std::string, std::string> said, unreachable;
+    for (const std::string& host : failing_hosts(hosts, "true", kProbeSeconds, {}, &said)) {
+        const std::string& words = said[host];
+        const std::size_t end = words.find_last_not_of(" \r\n"), begin = words.find_last_of("\r\n", end);
+        unreachable[host] = end == words.npos ? "" : printable(words.substr(begin + 1, end - begin));
+    }
+    return unreachable;
+}
+
+std::string host_agent() {
+    const Words words = agent_words();
+    return words.empty() ? "ssh" : printable(words.front());
 }
 
 bool is_program(const std::string& name) {
@@ -87,7 +104,7 @@ bool is_program(const std::string& name) {
 
 std::string words_of(const Words& command, double seconds) {
     if (!is_program(command.front())) return "";
-    ChildProcess child(command, kNothing, ChildProcess::Heard::all);
+    ChildProcess child(command, {}, ChildProcess::Heard::all);
     const Timer timer;
     std::string words;
     while (child.running() && timer.seconds() < seconds) {

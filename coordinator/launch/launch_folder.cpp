@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/launch/launch_folder.h"
 
-#include <cerrno>
-#include <fstream>
-#include <iterator>
+#include <fcntl.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
+
+#include "common/base/descriptor.h"
 #include "common/base/error.h"
+#include "common/base/files/atomic_file.h"
 #include "common/runs/run_json.h"
 #include "coordinator/checkpoint/checkpoint_store.h"
+#include "coordinator/launch/own_folder.h"
 #include "coordinator/run/run_folder.h"
 
 namespace treefarm {
@@ -41,13 +46,32 @@ LaunchFolder::LaunchFolder(LaunchedCommand& command) {
                          "wait for it, or name another folder with --run-dir");
 }
 
+void LaunchFolder::remake() {
+    std::error_code error;
+    if (fs::is_directory(own(), error)) return;
+    fs::create_directories(own(), error);
+    lock_.emplace(own(), 0.0, nullptr);
+}
+
+std::string LaunchFolder::trouble() {
+    remake();
+    try {
+        probe_folder(own());
+        return "";
+    } catch (const FileError& error) {
+        return run_.string() + ": " + std::strerror(error.code());
+    }
+}
+
 std::optional<LifeStatus> LaunchFolder::life(bool& readable) const {
-    errno = 0;
     // opened anew each time, so that network file systems check for changes
-    std::ifstream file(life_file(), std::ios::binary);
-    readable = file.is_open() || errno == ENOENT;
-    if (!file.is_open()) return std::nullopt;
-    return parse_life_status(std::string(std::istreambuf_iterator<char>(file), {}));
+    const Descriptor file = Descriptor::open(life_file(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK);
+    readable = file || errno == ENOENT;
+    std::string text;
+    char part[4096];
+    for (ssize_t count; file && (count = ::read(file.fd(), part, sizeof part)) > 0;)
+        text.append(part, static_cast<std::size_t>(count));
+    return parse_life_status(text);
 }
 
 std::optional<int> LaunchFolder::summary(const std::string& attempt) const {

@@ -24,6 +24,11 @@ class LaunchFolder {
     /// Heartbeat file of the coordinator: an absolute path, for other hosts.
     std::filesystem::path life_file() const { return std::filesystem::absolute(own() / kStatusFile); }
 
+    /// Makes folders again that have vanished, as far as that is possible.
+    void remake();
+    /// Reason why no file can be written to the run directory; "" if one can. Makes its folders again.
+    std::string trouble();
+
     /// Content of the heartbeat file; sets `readable` to whether it could be looked for.
     std::optional<LifeStatus> life(bool& readable) const;
     /// Exit code in the summary.json of this attempt; no value without one.

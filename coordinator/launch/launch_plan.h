@@ -17,13 +17,9 @@ class LaunchPlanner {
     /// Throws InputError if nothing could be started.
     explicit LaunchPlanner(const LaunchOptions& options);
 
-    /// Files and folders of an attempt.
-    struct LaunchPaths {
-        std::filesystem::path hostfile, temporary, shared_memory;
-    };
-    /// Plan of the next attempt; probes the hosts and writes a hostfile of those that answer. Throws RunError if none
-    /// does.
-    StartPlan plan(const LaunchPaths& paths) const;
+    /// Plan of the next attempt, without its folders; probes the hosts and writes the hostfile `hostfile` of those that
+    /// answer. Throws RunError if none does.
+    StartPlan plan(const std::filesystem::path& hostfile) const;
 
     /// Records the end of an attempt with its workers.
     void note_end(const std::vector<LifeWorker>& workers);
@@ -33,7 +29,7 @@ class LaunchPlanner {
 
   private:
     Starter choose_starter() const;
-    void use_hosts(const LaunchPaths& paths, StartPlan& plan) const;
+    void use_hosts(const std::filesystem::path& hostfile, StartPlan& plan) const;
 
     const LaunchOptions& options_;
     std::optional<HostPool> hosts_;

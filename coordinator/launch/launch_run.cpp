@@ -3,27 +3,34 @@
 
 #include <poll.h>
 #include <signal.h>
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/fmt/ranges.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <random>
 
+#include "common/base/descriptor.h"
 #include "common/base/error.h"
+#include "common/base/files/atomic_file.h"
 #include "common/base/host.h"
 #include "common/base/interrupt.h"
 #include "common/base/text/parse_text.h"
+#include "common/base/text/printable.h"
 #include "common/base/timer.h"
 #include "common/comm/run_key.h"
+#include "coordinator/launch/attempt_folders.h"
 #include "coordinator/launch/attempt_processes.h"
 #include "coordinator/launch/child_process.h"
 #include "coordinator/launch/host_keys.h"
 #include "coordinator/launch/launch_folder.h"
+#include "coordinator/launch/launch_output.h"
 #include "coordinator/launch/launch_plan.h"
 #include "coordinator/launch/launch_signals.h"
+#include "coordinator/launch/launch_words.h"
 #include "coordinator/launch/launched_command.h"
 #include "coordinator/launch/supervisor.h"
 #include "coordinator/launch/sweep.h"
@@ -48,26 +55,11 @@ std::string random_name() {
     return text;
 }
 
-bool is_gone(pid_t process) {
-    return ::kill(process, 0) != 0 && errno == ESRCH;
-}
-
-/// The command as it was typed, up to "--"; the user repeats it to resume.
-std::string typed(const LaunchOptions& options) {
-    const LaunchOptions usual;
-    std::vector<std::string> words = {"treefarm", "launch"};
-    const auto add = [&words](const char* option, const std::string& value) {
-        words.emplace_back(option);
-        words.push_back(value);
-    };
-    if (options.processes > 0) add("-n", std::to_string(options.processes));
-    if (!options.hostfile.empty()) add("--hostfile", options.hostfile);
-    if (!options.network.empty()) add("--network", options.network);
-    if (options.mpirun != usual.mpirun) add("--mpirun", options.mpirun);
-    if (options.restarts != usual.restarts) add("--restarts", std::to_string(options.restarts));
-    if (options.stall_seconds != usual.stall_seconds) add("--stall-seconds", number_text(options.stall_seconds));
-    if (options.no_recovery) words.emplace_back("--no-recovery");
-    return shell_line(words) + " --";
+/// Whether a coordinator of this host has ended: it has no process here, and its lock of the run directory, which also
+/// one in a container holds, is free.
+bool is_gone(const LifeStatus& coordinator, const std::filesystem::path& run) {
+    if (coordinator.host != host_name() || ::kill(coordinator.pid, 0) == 0 || errno != ESRCH) return false;
+    return !FolderLock(run, 0.0, nullptr).refused();
 }
 
 /// Prints to the terminal; a closed terminal ends nothing.
@@ -82,9 +74,6 @@ class LaunchRun {
           command_(std::move(command)),
           planner_(options),
           folder_(command_),
-          temporary_(temporary_folder()),
-          shared_memory_(shared_memory_folder()),
-          log_(folder_.own() / "log", std::ios::app),
           supervisor_(limits(options), actions(), [this](int number) { return name_of(number); }) {}
 
     int run() {
@@ -129,19 +118,30 @@ class LaunchRun {
         sight.running = child_ && child_->running();
         sight.not_started = not_started_;
         if (child_ && !sight.running) end_child();
-        sight.coordinator_gone = seen_ && seen_->host == host_name() && is_gone(seen_->pid);
+        sight.coordinator_gone = seen_ && is_gone(*seen_, folder_.run());
+        folder_.remake();
         // Read after the processes have ended, so that their last heartbeat counts.
-        sight.status = folder_.life(sight.readable);
+        sight.status = newest_sign(sight.readable);
         if (supervisor_.attempt() > 0) sight.summary = folder_.summary(name());
         if (!sight.running) sight.checkpoint = folder_.checkpoint();
+        if (!sight.running && supervisor_.attempt() > 0)
+            sight.disk = start_trouble_.empty() ? folder_.trouble() : std::exchange(start_trouble_, "");
         if (sight.running && sight.status && sight.status->attempt == name()) seen_ = sight.status;
         sight.now = clock_.seconds();
         return sight;
     }
 
+    /// The coordinator's last sign of life: that of its file, or one in its output while the file cannot be written.
+    std::optional<LifeStatus> newest_sign(bool& readable) const {
+        const std::optional<LifeStatus> file = folder_.life(readable), &printed = output_.sign();
+        if (!printed || printed->attempt != name()) return file;
+        return file && file->attempt == name() && file->beat >= printed->beat ? file : printed;
+    }
+
     /// Ends all processes of an attempt after its launcher: none may run beside the next attempt.
     void end_child() {
         relay();
+        pass_on(output_.take_rest());
         note("launcher: " + child_->ending());
         child_.reset();
         clean_up();
@@ -152,8 +152,7 @@ class LaunchRun {
     void clean_up() {
         if (supervisor_.attempt() > 0 && !kill_attempt(name(), kKillPatience))
             note("processes of the attempt cannot be killed");
-        temporary_.empty();
-        shared_memory_.empty();
+        folders_.reset();
         std::error_code none;
         std::filesystem::remove(key_file(), none);
         host_keys_.reset();
@@ -171,6 +170,7 @@ class LaunchRun {
         } catch (const std::exception& error) {
             if (number == 1) throw;
             not_started_ = error.what();
+            if (dynamic_cast<const FileError*>(&error)) start_trouble_ = not_started_;
             clean_up();
         }
     }
@@ -178,16 +178,26 @@ class LaunchRun {
     void begin(int number) {
         sweep();
         if (number > 1) wait_for_folder();
-        const StartPlan plan = planner_.plan(
-            {folder_.own() / ("hostfile-" + std::to_string(number)), temporary_.path(), shared_memory_.path()});
-        const bool goes_on = number > 1 && folder_.was_taken_by(launch_);
+        StartPlan plan = planner_.plan(folder_.own() / ("hostfile-" + std::to_string(number)));
+        folders_ = std::make_unique<AttemptFolders>(plan, key_file());
+        if (!folders_->trouble().empty()) note(folders_->trouble());
+        if (number == 1) was_empty_ = folder_content(folder_.run()) == FolderContent::nothing;
+        const bool goes_on = number > 1 && (was_empty_ || folder_.was_taken_by(launch_));
         const std::vector<std::string> words = goes_on ? command_.again(folder_.checkpoint() > 0) : command_.first();
         const std::vector<std::string> command = start_command(plan, words);
         note("attempt " + std::to_string(number) + ": " + shell_line(command));
+        std::vector<std::string> variables;
+        for (const std::string& warning : plan.warnings)
+            say("warning: " + warning);
+        if (!plan.warnings.empty())
+            variables.push_back(std::string(kWarningsVariable) + "=" +
+                                fmt::format("{}", fmt::join(plan.warnings, "; ")));
         const LifeAttempt attempt{name_of(number), folder_.life_file()};
         write_run_key(key_file());
         if (!plan.hosts.empty()) host_keys_ = std::make_unique<HostKeys>(plan.hosts, key_file(), name_of(number));
-        child_ = std::make_unique<ChildProcess>(command, std::string(kAttemptVariable) + "=" + attempt_text(attempt));
+        variables.push_back(std::string(kAttemptVariable) + "=" + attempt_text(attempt));
+        output_ = {};
+        child_ = std::make_unique<ChildProcess>(command, variables);
     }
 
     /// Waits for the run directory: a coordinator on another host may outlive its launcher.
@@ -232,18 +242,27 @@ class LaunchRun {
     /// Copies the output of launcher and ranks to the terminal and to the log.
     void relay() {
         if (!child_) return;
-        const std::string words = child_->take_words();
-        if (words.empty()) return;
-        tell(words);
-        log_ << words << std::flush;
+        pass_on(output_.take(child_->take_words(), seen_.has_value()));
+    }
+
+    void pass_on(const LaunchOutput::Lines& lines) {
+        if (!lines.terminal.empty()) tell(lines.terminal);
+        log(lines.log);
     }
 
     void say(const std::string& words) {
-        tell("treefarm: launch: " + words + "\n");
+        tell("treefarm: launch: " + printable(words) + "\n");
         note(words);
     }
 
-    void note(const std::string& words) { log_ << "launch: " << words << "\n" << std::flush; }
+    void note(const std::string& words) { log("launch: " + printable(words) + "\n"); }
+
+    /// Appends to the log. What a full disk does not take is lost, and no more.
+    void log(const std::string& text) const {
+        const Descriptor file = Descriptor::open(folder_.own() / "log",
+                                                 O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_NONBLOCK, mode_t{0666});
+        if (file && write(file.fd(), text.data(), text.size()) < 0) return;
+    }
 
     int finish(const SupervisorEnd& end) {
         sweep();
@@ -254,7 +273,7 @@ class LaunchRun {
 
     /// Description of the saved state, and the command that resumes.
     std::string what_is_kept() const {
-        const std::string again = typed(options_);
+        const std::string again = launch_words(options_);
         if (command_.kind == LaunchedCommand::Kind::render || command_.kind == LaunchedCommand::Kind::resume) {
             if (folder_.checkpoint() == 0)
                 return "no pass is kept in " + folder_.run().string() + "; begin again with " + again + " " +
@@ -273,11 +292,13 @@ class LaunchRun {
     LaunchSignals signals_;
     LaunchPlanner planner_;
     LaunchFolder folder_;
-    const OwnFolder temporary_, shared_memory_;
-    std::ofstream log_;
+    std::unique_ptr<AttemptFolders> folders_;
+    LaunchOutput output_;
     std::optional<LifeStatus> seen_;  ///< last heartbeat of the attempt
     std::string not_started_;         ///< reason why the attempt could not be started; "" if it was
+    std::string start_trouble_;       ///< that reason if it is a disk's, until it is reported
     bool started_ = false;            ///< whether any attempt was started
+    bool was_empty_ = false;          ///< whether the run directory was, so that all in it is of the attempts
     std::unique_ptr<ChildProcess> child_;
     std::unique_ptr<HostKeys> host_keys_;
     Supervisor supervisor_;

@@ -8,7 +8,8 @@ namespace treefarm {
 std::vector<std::string> LaunchedCommand::again(bool has_checkpoint) const {
     if (kind != Kind::render || goes_on) return words;
     if (has_checkpoint) {
-        std::vector<std::string> resume = {"resume", folder.string()};
+        const bool like_option = folder.string().starts_with('-');
+        std::vector<std::string> resume = {"resume", (like_option ? "." / folder : folder).string()};
         resume.insert(resume.end(), farm_options.begin(), farm_options.end());
         return resume;
     }

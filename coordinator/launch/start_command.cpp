@@ -46,6 +46,7 @@ void add_hosts(Words& words, const StartPlan& plan) {
 Words mpirun_words(const StartPlan& plan) {
     Words words = {plan.mpirun, "-n", std::to_string(plan.processes), "--bind-to", "none"};
     if (plan.recovery) add(words, {"--enable-recovery"});
+    if (plan.no_agent) add_parameter(words, "plm", "isolated");
     const bool alone = plan.hostfile.empty() && plan.one_host;
     if (alone)
         add_one_host(words, plan);
@@ -56,6 +57,7 @@ Words mpirun_words(const StartPlan& plan) {
     add_parameter(words, "pml", "ob1");
     if (!plan.temporary.empty()) add_parameter(words, "orte_tmpdir_base", plan.temporary.string());
     add(words, {"-x", kAttemptVariable});
+    if (!plan.warnings.empty()) add(words, {"-x", kWarningsVariable});
     return words;
 }
 

@@ -15,7 +15,7 @@ namespace {
 /// Seconds between two steps above which the supervisor itself was stopped, and could not see a heartbeat.
 constexpr double kLongestStep = 5.0;
 
-constexpr int kFailed = 1, kInterrupted = 3;
+constexpr int kFailed = 1, kBadInput = 2, kInterrupted = 3;
 
 }  // namespace
 
@@ -53,8 +53,7 @@ std::optional<SupervisorEnd> Supervisor::step(const Sight& sight) {
     forgive_gap(sight.now);
     if (state_ == State::waiting) {
         if (stops_ > 0) return SupervisorEnd{kInterrupted, "interrupted", attempt_ > 0};
-        if (sight.now >= due_) start(sight.now);
-        return std::nullopt;
+        return start_when_due(sight);
     }
     look(sight);
     if (!sight.running) return gone(sight);
@@ -90,6 +89,21 @@ void Supervisor::start(double now) {
     actions_.start(attempt_);
 }
 
+/// Starts the next attempt once files can be written; the first one may fail and say why.
+std::optional<SupervisorEnd> Supervisor::start_when_due(const Sight& sight) {
+    if (sight.now < due_) return std::nullopt;
+    if (attempt_ > 0 && !sight.disk.empty()) {
+        if (sight.now - due_ > limits_.disk_all)
+            return SupervisorEnd{
+                kFailed,
+                fmt::format("the disk has taken no files for {:.0f} h: {}", limits_.disk_all / 3600, sight.disk), true};
+        if (std::exchange(told_disk_, sight.disk) != sight.disk) actions_.say("waiting for the disk: " + sight.disk);
+        return std::nullopt;
+    }
+    start(sight.now);
+    return std::nullopt;
+}
+
 /// Reads the heartbeat.
 void Supervisor::look(const Sight& sight) {
     const double now = sight.now;
@@ -100,6 +114,7 @@ void Supervisor::look(const Sight& sight) {
     if (code(sight) && !code_at_) code_at_ = now;
     if (!sight.status || sight.status->attempt != name_(attempt_)) return;
     const LifeStatus& status = *sight.status;
+    told_disk_.clear();
     if (!own_ || status.beat != own_->beat) beat_at_ = now;
     if (!own_ || status.progress != own_->progress || status.phase != own_->phase) {
         if (own_) {
@@ -174,13 +189,15 @@ std::optional<SupervisorEnd> Supervisor::gone(const Sight& sight) {
     const std::optional<int> known = code(sight);
     const bool stood_still = state_ == State::terminating || state_ == State::killed;
     const bool by_launcher = own_ && own_->ended_by_launcher;
+    const bool refused_by_disk = known == kBadInput && attempt_ > 1 && !sight.disk.empty();
     // An attempt ended for its silence, or by mpirun after losing a host, may report that as a user's interruption.
-    if (known && *known != kFailed && !(*known == kInterrupted && (stood_still || by_launcher) && stops_ == 0))
+    if (known && *known != kFailed && !refused_by_disk &&
+        !(*known == kInterrupted && (stood_still || by_launcher) && stops_ == 0))
         return SupervisorEnd{*known, "", *known == kInterrupted};
     if (stops_ > 0) return SupervisorEnd{kInterrupted, "interrupted in " + life_stage(own_), true};
     if (!sight.not_started.empty())
         return restart_or_end(sight, "it could not be started (" + sight.not_started + ")", life_stage(own_));
-    if (known == kFailed) return restart_or_end(sight, "the render failed", life_stage(own_));
+    if (known == kFailed || refused_by_disk) return restart_or_end(sight, "the render failed", life_stage(own_));
     if (!why_.empty()) return restart_or_end(sight, why_, stage_);
     if (by_launcher) return restart_or_end(sight, "the launcher ended the render", life_stage(own_));
     return restart_or_end(sight, "the render's processes are gone", life_stage(own_));
@@ -194,6 +211,13 @@ std::optional<SupervisorEnd> Supervisor::restart_or_end(const Sight& sight, cons
         reach.renders = own_->renders;
     }
     const std::string host = own_ ? " on " + own_->host : "";
+    if (!sight.disk.empty()) {  // says nothing about the render, so that it does not count
+        if (std::exchange(told_disk_, sight.disk) != sight.disk)
+            actions_.say(fmt::format("{} in {}{}; again when the disk takes files: {}", why, stage, host, sight.disk));
+        due_ = sight.now + limits_.disk;
+        state_ = State::waiting;
+        return std::nullopt;
+    }
     if (restarts_.died(reach, stage)) {
         due_ = sight.now + restarts_.pause();
         actions_.say(fmt::format("{} in {}{}; again in {:.0f} s", why, stage, host, restarts_.pause()));

@@ -19,11 +19,13 @@ struct SupervisorLimits {
     double stall_multiple = 5;  ///< whichever is longer
     /// from the last heartbeat of a coordinator that knows its exit code to its launcher's end
     double leave = 15;
-    double leave_all = 600;  ///< from that code to the launcher's end, with or without heartbeats
-    double stop = 30;        ///< without progress, after it was told to stop
-    double terminate = 3;    ///< between SIGTERM and SIGKILL
-    int restarts = 5;        ///< in a row without progress
-    int attempts = 100;      ///< in total
+    double leave_all = 600;   ///< from that code to the launcher's end, with or without heartbeats
+    double stop = 30;         ///< without progress, after it was told to stop
+    double terminate = 3;     ///< between SIGTERM and SIGKILL
+    double disk = 5;          ///< between an attempt that the disk refused and the next one
+    double disk_all = 43200;  ///< for which the disk takes no files
+    int restarts = 5;         ///< in a row without progress
+    int attempts = 100;       ///< in total
 };
 
 /// Observations of a supervisor at one moment.
@@ -31,6 +33,7 @@ struct Sight {
     double now = 0;                    ///< seconds of its own clock
     bool running = false;              ///< the started process exists
     std::string not_started;           ///< reason why the attempt could not be started
+    std::string disk;                  ///< reason why files cannot be written now, between two attempts; "": they can
     bool readable = true;              ///< the heartbeat file could be looked for
     bool coordinator_gone = false;     ///< its process existed and has ended
     std::optional<LifeStatus> status;  ///< content of the heartbeat file, of this attempt or another
@@ -76,6 +79,7 @@ class Supervisor {
 
     void forgive_gap(double now);
     void start(double now);
+    std::optional<SupervisorEnd> start_when_due(const Sight& sight);
     void look(const Sight& sight);
     void watch(const Sight& sight);
     void watch_stop(const Sight& sight);
@@ -99,6 +103,7 @@ class Supervisor {
     std::optional<LifeStatus> own_;                 ///< last heartbeat of this attempt
     std::array<double, kLifePhases> longest_ = {};  ///< per phase: longest time without progress so far
     bool told_unreadable_ = false;
+    std::string told_disk_;    ///< Sight::disk as it was last reported
     std::string why_, stage_;  ///< reason for ending the attempt, and where it was then
 };
 

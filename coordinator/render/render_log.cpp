@@ -37,6 +37,7 @@ RenderLog::RenderLog(const RenderRequest& request, std::filesystem::path folder,
 
 void RenderLog::tell_origin() const {
     log_->debug("{}", request_.origin.command);
+    if (!request_.origin.launch_warnings.empty()) log_->debug("launch: warning: {}", request_.origin.launch_warnings);
     for (const std::string& warning : request_.content.warnings)
         log_->warn("{}", warning);
     for (const std::string& note : request_.content.notes)

@@ -44,10 +44,11 @@ struct RenderStorage {
 
 /// Origin of a render, for its files: command and program.
 struct RenderOrigin {
-    std::string command{};        ///< as it was typed
-    std::string debug_command{};  ///< reproduces a sample with " pass,x,y,sample" and --schedule appended
-    Fingerprint fingerprint{};    ///< of this process
-    std::string attempt{};        ///< attempt of treefarm launch; "" without launch
+    std::string command{};          ///< as it was typed
+    std::string debug_command{};    ///< reproduces a sample with " pass,x,y,sample" and --schedule appended
+    Fingerprint fingerprint{};      ///< of this process
+    std::string attempt{};          ///< attempt of treefarm launch; "" without launch
+    std::string launch_warnings{};  ///< warnings of treefarm launch, which has printed them; "" if there are none
 };
 
 /// Workers of a render, and its interruption.

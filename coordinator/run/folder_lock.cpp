@@ -5,6 +5,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <thread>
@@ -14,6 +15,13 @@
 
 namespace treefarm {
 
+namespace {
+
+/// Seconds in which a program that only asks whether the folder is locked has left it again.
+constexpr double kGlance = 0.05;
+
+}  // namespace
+
 FolderLock::FolderLock(const std::filesystem::path& folder, double patience, const std::function<bool()>& interrupted)
     : fd_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
     if (fd_ >= 0 && ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EBADF) {  // NFS locks only writable files
@@ -22,7 +30,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder, double patience, con
     }
     const Timer timer;
     while (fd_ >= 0 && ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-        if (timer.seconds() > patience || (interrupted && interrupted())) {
+        if (timer.seconds() > std::max(patience, kGlance) || (interrupted && interrupted())) {
             refused_ = true;
             return;
         }

@@ -2,7 +2,9 @@
 #include "coordinator/run/life_status.h"
 
 #include <array>
+#include <climits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "common/base/text/printable.h"
 
@@ -26,7 +28,9 @@ const char* life_phase_name(LifePhase phase) {
     return kNames[static_cast<std::size_t>(phase)];
 }
 
-std::string life_status_text(const LifeStatus& status) {
+namespace {
+
+Json life_json(const LifeStatus& status) {
     Json workers = Json::array();
     for (const LifeWorker& worker : status.workers)
         workers.push_back({{"host", worker.host}, {"lost", worker.lost}});
@@ -37,7 +41,20 @@ std::string life_status_text(const LifeStatus& status) {
                  {"pid", status.pid},           {"workers", workers}};
     if (status.code) json["code"] = *status.code;
     if (status.ended_by_launcher) json["ended_by_launcher"] = true;
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json;
+}
+
+}  // namespace
+
+std::string life_status_text(const LifeStatus& status) {
+    return life_json(status).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string life_line(LifeStatus status) {
+    std::string line = kLifeMark + life_json(status).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    if (line.size() <= PIPE_BUF || status.workers.empty()) return line;
+    status.workers.clear();
+    return life_line(std::move(status));
 }
 
 std::optional<LifeStatus> parse_life_status(const std::string& text) {

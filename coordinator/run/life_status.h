@@ -51,4 +51,11 @@ std::string life_status_text(const LifeStatus& status);
 /// Status from a JSON text; no value for other texts.
 std::optional<LifeStatus> parse_life_status(const std::string& text);
 
+/// First character of a line that holds a status in a coordinator's error output: "record separator". No other line
+/// has it, since messages are printable.
+inline constexpr char kLifeMark = '\x1e';
+/// Line with a status, for the time in which its file cannot be written. Without the workers if a pipe might not take
+/// the line as a whole (PIPE_BUF).
+std::string life_line(LifeStatus status);
+
 }  // namespace treefarm

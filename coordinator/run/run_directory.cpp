@@ -118,13 +118,17 @@ void RunDirectory::write_request_files() const {
     write_text(kPassesFile, passes_csv_, Outlives::power);
 }
 
-/// Runs the first write; throws InputError if the folder is not writable.
+/// Runs the first write; throws InputError if the folder is not writable, RunError if it may be later.
 void RunDirectory::write_first(const std::function<void()>& write) const {
     try {
         write();
     } catch (const std::exception& error) {
-        throw InputError(Location{path().string(), 0, 0}, std::string("cannot be the run directory: ") + error.what(),
-                         "name another with --run-dir");
+        const InputError refused(Location{path().string(), 0, 0},
+                                 std::string("cannot be the run directory: ") + error.what(),
+                                 "name another with --run-dir");
+        const auto* const file_error = dynamic_cast<const FileError*>(&error);
+        if (file_error && is_disk_trouble(file_error->code())) throw RunError(refused.what());
+        throw refused;
     }
 }
 

@@ -40,7 +40,7 @@ struct RunDirectoryOptions {
 class RunDirectory {
   public:
     /// Makes the folder and writes the files known before the render; a resumed run writes only status.json. Throws
-    /// InputError on failure.
+    /// InputError on failure; RunError if the disk is full or out of reach.
     RunDirectory(const Job& job, RunFacts facts, const EffectPlan& plan, const RunDirectoryOptions& options = {});
 
     const std::filesystem::path& path() const { return folder_.path(); }

@@ -27,7 +27,7 @@ std::string attempt_text(const LifeAttempt& attempt);
 LifeAttempt parse_attempt(const std::string& text);
 
 /// Writer of a coordinator's heartbeat file, once a second in a thread of its own, which shares nothing with rendering.
-/// A failed write is retried at the next second.
+/// While the file cannot be written, the heartbeats are lines of the error output instead: a full disk is no silence.
 class SignOfLife {
   public:
     explicit SignOfLife(LifeAttempt attempt) : attempt_(std::move(attempt)) {}

@@ -199,5 +199,21 @@ TEST(Join, AGuestOfARenderThatIsKilledLeaves) {
     EXPECT_NE(late.output.find("nobody answers"), std::string::npos) << late.output;
 }
 
+/// A guest whose connection is lost before the render tells it to leave.
+TEST(Join, AGuestThatWaitsLeavesWhenTheRenderIsOver) {
+    const fs::path folder = fresh_folder("run");
+    Program program(render(folder, kJoinable, "100000000"));
+    ASSERT_TRUE(program.wait_until([&] { return has_come_to(folder, 0); }, kSoon));
+    Program guest(join({folder.string(), "--wait", "6000"}));
+    ASSERT_TRUE(program.wait_until([&] { return workers_in(folder) == 2; }, kSoon));
+    program.signal(SIGKILL);
+    program.wait(kSoon);
+    std::ofstream(folder / "status.json") << R"({"state": "done"})";
+    const Ending ending = guest.wait(kSoon);
+    EXPECT_FALSE(ending.timed_out);
+    EXPECT_EQ(ending.code, 0) << ending.output;
+    EXPECT_NE(ending.output.find("the render is over"), std::string::npos) << ending.output;
+}
+
 }  // namespace
 }  // namespace treefarm::test

@@ -26,8 +26,8 @@ class LaunchWorld {
     void step(double seconds = 1.0) {
         now += seconds;
         if (!end)
-            end =
-                supervisor_.step({now, running, not_started, readable, coordinator_gone, status, summary, checkpoint});
+            end = supervisor_.step(
+                {now, running, not_started, disk, readable, coordinator_gone, status, summary, checkpoint});
     }
     /// Advances `seconds` seconds, and calls `life` in each.
     void pass(
@@ -80,6 +80,7 @@ class LaunchWorld {
     double now = 0;
     bool running = false, readable = true, coordinator_gone = false;
     std::string not_started;  ///< reason why attempts cannot be started; "": they can
+    std::string disk;         ///< reason why no file can be written; "": they can
     int attempt = 0;
     std::optional<LifeStatus> status;
     std::optional<int> summary;

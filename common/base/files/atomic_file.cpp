@@ -79,6 +79,10 @@ void write_special(const fs::path& path, Pieces pieces) {
 
 }  // namespace
 
+bool is_disk_trouble(int code) {
+    return code == ENOSPC || code == EDQUOT || code == EIO || code == ESTALE;
+}
+
 void write_file_atomically(const fs::path& path, std::span<const std::uint8_t> bytes, Outlives outlives) {
     write_pieces_atomically(path, {&bytes, 1}, outlives);
 }

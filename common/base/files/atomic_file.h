@@ -24,6 +24,10 @@ class FileError : public RunError {
     int code_;
 };
 
+/// Whether an errno is of a disk that may take files later: full, above its quota, or out of reach. A user's input is
+/// not to blame then.
+bool is_disk_trouble(int code);
+
 /// Writes a file such that a crash at any moment leaves either the old content or the new: temporary file in the same
 /// folder, fsync, rename, fsync of the folder (without the fsyncs unless it must survive `power`). The temporary file
 /// is created as by mkstemp, under an unpredictable name. An existing file keeps its permissions; a new one follows the

@@ -94,6 +94,20 @@ TEST(StartCommand, HostsAreUsedAsTheyAreNamed) {
     EXPECT_TRUE(has(command(plan), " --oversubscribe "));
 }
 
+TEST(StartCommand, WithoutSshMpirunMayNotLookForIt) {
+    StartPlan plan{.program = "/bin/treefarm", .processes = 3, .no_agent = true};
+    EXPECT_TRUE(has(command(plan), " --mca plm isolated ")) << command(plan);
+    plan.no_agent = false;
+    EXPECT_FALSE(has(command(plan), "plm")) << command(plan);
+}
+
+TEST(StartCommand, WarningsReachTheCoordinator) {
+    StartPlan plan{.program = "/bin/treefarm", .processes = 3};
+    EXPECT_FALSE(has(command(plan), kWarningsVariable)) << command(plan);
+    plan.warnings = {"node9 does not answer"};
+    EXPECT_TRUE(has(command(plan), " -x TREEFARM_LAUNCH_WARNINGS ")) << command(plan);
+}
+
 TEST(StartCommand, MpirunKnowsTheHostsOfAnAllocation) {
     const std::string text = command({.program = "/bin/treefarm", .processes = 3, .one_host = false});
     EXPECT_TRUE(has(text, " --mca btl tcp,vader,self ")) << text;
@@ -207,6 +221,23 @@ TEST_F(SignOfLifeTest, AFolderThatIsGoneEndsNothing) {
     life.see({});
     life.end(0);
     EXPECT_FALSE(fs::exists(folder_ / "gone"));
+}
+
+/// The error output leads to treefarm launch.
+TEST_F(SignOfLifeTest, WithoutItsFolderItBeatsInTheErrorOutput) {
+    testing::internal::CaptureStderr();
+    {
+        SignOfLife life({"ab.2", folder_ / "gone" / "status.json"});
+        life.begin();
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        life.end(4);
+    }
+    const std::string said = testing::internal::GetCapturedStderr();
+    ASSERT_EQ(said.find(kLifeMark), 0u) << said;
+    const auto last = parse_life_status(said.substr(said.rfind(kLifeMark) + 1));
+    ASSERT_TRUE(last) << said;
+    EXPECT_EQ(last->attempt, "ab.2");
+    EXPECT_EQ(last->code, 4);
 }
 
 TEST(LifeStatus, ComesBackFromItsFile) {

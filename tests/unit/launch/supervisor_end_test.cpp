@@ -92,6 +92,79 @@ TEST(Supervisor, AnAttemptThatCannotBeStartedIsTriedAgain) {
     EXPECT_NE(world.end->words.find("it could not be started (hosts: no host answers)"), std::string::npos);
 }
 
+TEST(Supervisor, ADiskThatTakesNoFilesIsWaitedForAndCountsForNothing) {
+    for (const int code : {0, 1, 2}) {  // 0: killed, without a word
+        LaunchWorld world({.restarts = 1});
+        const auto die_on_full_disk = [&] {
+            world.run_to_pass();
+            world.disk = "run: No space left on device";
+            if (code > 0 && world.attempt > 1) world.finish(code);
+            world.die();
+            world.step();
+        };
+        for (int k = 1; k <= 9; ++k) {
+            die_on_full_disk();
+            EXPECT_EQ(world.last_said(),
+                      std::string(code > 0 && k > 1 ? "the render failed" : "the render's processes are gone") +
+                          " in pass 3 on node1; again when the disk takes files: " + world.disk);
+            const std::size_t said = world.said.size();
+            world.pass(4000);
+            EXPECT_EQ(world.attempt, k) << "no attempt can succeed now";
+            EXPECT_EQ(world.said.size(), said) << "it is said once";
+            world.disk.clear();
+            world.pass(2);
+            EXPECT_EQ(world.attempt, k + 1);
+        }
+        EXPECT_FALSE(world.end);
+        world.run_to_pass();
+        world.finish(0);
+        world.step();
+        ASSERT_TRUE(world.end);
+        EXPECT_EQ(world.end->code, 0);
+    }
+}
+
+TEST(Supervisor, AnAttemptThatTheDiskDoesNotLetStartIsRepeatedWithoutCounting) {
+    LaunchWorld world({.restarts = 0});
+    world.run_to_pass();
+    world.not_started = world.disk = "/tmp: no folder can be made in it (No space left on device)";
+    world.die();
+    world.step();
+    for (int k = 2; k < 9; ++k) {
+        world.disk.clear();  // only the start meets it
+        while (world.attempt < k && !world.end)
+            world.step();
+        ASSERT_FALSE(world.end);
+        world.disk = world.not_started;
+        world.step();
+    }
+    EXPECT_EQ(world.said.size(), 1u) << "it is said once";
+}
+
+TEST(Supervisor, ADiskThatNobodyEmptiesIsGivenUp) {
+    LaunchWorld world;
+    world.run_to_pass();
+    world.disk = "run: No space left on device";
+    world.die();
+    world.pass(12 * 3600);
+    EXPECT_FALSE(world.end);
+    world.pass(60);
+    ASSERT_TRUE(world.end);
+    EXPECT_EQ(world.end->code, 1);
+    EXPECT_TRUE(world.end->resumable);
+    EXPECT_EQ(world.end->words, "the disk has taken no files for 12 h: run: No space left on device");
+}
+
+TEST(Supervisor, ADiskThatIsFullAtOnceIsAnError) {
+    LaunchWorld world;
+    world.disk = "run: No space left on device";
+    world.run_to_pass();
+    world.finish(2);
+    world.step();
+    ASSERT_TRUE(world.end);
+    EXPECT_EQ(world.end->code, 2);
+}
+
 TEST(Supervisor, AStopWaitsForWhatIsWritten) {
     LaunchWorld world;
     world.run_to_pass();

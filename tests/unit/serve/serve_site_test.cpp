@@ -8,6 +8,7 @@
 #include <string>
 
 #include "common/base/error.h"
+#include "coordinator/run/folder_lock.h"
 #include "serve/file_json.h"
 #include "serve/pass_table.h"
 #include "serve/run_search.h"
@@ -100,6 +101,11 @@ TEST_F(ServeSite, StateTellsALivingRenderFromADeadOne) {
     EXPECT_EQ(state(kNow, true), "running");
     EXPECT_EQ(state(kNow, false), "running") << "it has written a second ago";
     EXPECT_EQ(state(kNow + 10, false), "killed");
+    {  // its number is that of another container
+        const FolderLock lock(folder / "runs/box", 0.0, nullptr);
+        EXPECT_EQ(state(kNow + 10, false), "running");
+        EXPECT_EQ(state(kNow + 100, false), "silent");
+    }
     EXPECT_EQ(state(kNow + 10, true), "running");
     EXPECT_EQ(state(kNow + 100, true), "silent");
     test::write_file(folder / "runs/box/status.json", R"({"state": "done", "time": 5})");
