@@ -17,12 +17,6 @@ std::string pass_summary(const PassReport& report, std::size_t pass_count);
 /// Name of a pass: "pass 6/7", or "pass 6".
 std::string pass_name(std::uint32_t index, std::size_t pass_count);
 
-/// Duration in words: "0.25 s", "7.1 s", "1:10" (minutes), "2:30:00" (hours), "12.5 h", "12 days".
-std::string duration_text(double seconds);
-
-/// Forecast duration, as duration_text() but in whole seconds, at least one: forecasts are no more accurate.
-std::string rough_duration_text(double seconds);
-
 /// Trust of a forecast: "about ", "at most ", "roughly ", or empty if unknown.
 const char* trust_words(Trust trust);
 
