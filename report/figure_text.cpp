@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "common/base/text/duration_text.h"
+
 namespace treefarm {
 
 namespace {
@@ -38,12 +40,9 @@ std::string gain_text(const Interval& ratio) {
 }
 
 std::string time_text(double seconds, bool of_cores) {
-    const char* of = of_cores ? "core-" : "";
     if (!std::isfinite(seconds)) return "?";
-    if (seconds < 120) return fmt::format("{:.3g} {}s", seconds, of);
-    if (seconds < 7200) return fmt::format("{:.3g} {}min", seconds / 60, of);
-    return seconds < 360'000 ? fmt::format("{:.3g} {}h", seconds / 3600, of)
-                             : fmt::format("{:.3g} {}d", seconds / 86400, of);
+    const std::string text = seconds < 59.95 ? fmt::format("{:.3g} s", seconds) : duration_text(seconds);
+    return of_cores ? text + " of a core" : text;
 }
 
 std::string time_text(const Interval& seconds, bool of_cores) {
