@@ -14,6 +14,12 @@ namespace {
 /// Ratio of its bounds above which an interval is not shown.
 constexpr double kWidest = 10;
 
+/// A bound with three digits, or more where it would read as the 1 that it is not.
+std::string bound_text(double bound) {
+    const std::string text = fmt::format("{:.3g}", bound);
+    return text == "1" && bound != 1 ? fmt::format("{:.4g}", bound) : text;
+}
+
 bool has_interval(const Interval& interval) {
     return interval.values >= kLeastSeeds && std::isfinite(interval.low);
 }
@@ -27,7 +33,7 @@ bool differs_from_one(const Interval& ratio) {
 std::string interval_text(const Interval& interval) {
     if (!std::isfinite(interval.mean)) return "?";
     std::string text = fmt::format("{:.3g}", interval.mean);
-    if (has_interval(interval)) text += fmt::format(" [{:.3g}, {:.3g}]", interval.low, interval.high);
+    if (has_interval(interval)) text += fmt::format(" [{}, {}]", bound_text(interval.low), bound_text(interval.high));
     return text;
 }
 

@@ -28,15 +28,11 @@ bool is_known(const LightOrigin& origin) {
     return origin.found <= LightFound::sky_sampled && origin.path_class <= PathClass::sheet;
 }
 
-bool is_seen_directly(const LightOrigin& origin) {
-    return origin.vertices <= 1 && (origin.found == LightFound::met || origin.found == LightFound::sky_met);
-}
-
 std::string words(const LightOrigin& origin) {
     const bool of_sky = origin.found == LightFound::sky_met || origin.found == LightFound::sky_sampled;
     const bool sampled = origin.found == LightFound::sampled || origin.found == LightFound::sky_sampled;
     const std::string light = of_sky ? "light of the environment" : "light";
-    if (is_seen_directly(origin)) return light + " that the camera sees";
+    if (origin.vertices <= 1 && !sampled) return light + " that the camera sees";
     return light + words(origin.path_class) + (sampled ? ", sampled by next event" : ", met by chance");
 }
 

@@ -31,9 +31,6 @@ struct LightOrigin {
 /// Whether technique and class are valid values; those of a message may not be.
 bool is_known(const LightOrigin& origin);
 
-/// Whether the camera sees the light directly: a lamp's edge, or the environment.
-bool is_seen_directly(const LightOrigin& origin);
-
 /// Description such as "light through rough glass, met by chance". It names the number of vertices only for light that
 /// the camera sees directly.
 std::string words(const LightOrigin& origin);

@@ -29,6 +29,11 @@ TailSamples samples_of_image(const CombinedImage& image, std::span<const PassRep
     return all;
 }
 
+/// Whether the camera sees the light directly: a lamp's edge, or the environment.
+bool is_seen_directly(const LightOrigin& origin) {
+    return origin.vertices <= 1 && (origin.found == LightFound::met || origin.found == LightFound::sky_met);
+}
+
 std::string main_origin(const TailSamples& samples) {
     std::map<std::string, double> noise;
     for (const TailSample& sample : samples.worst)

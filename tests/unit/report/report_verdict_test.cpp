@@ -104,6 +104,7 @@ TEST(Verdict, ABusyMachineIsTold) {
 TEST(Figures, WideIntervalsAreNotPrinted) {
     EXPECT_EQ(gain_text({2, 1.5, 2.5, 3}), "2 [1.5, 2.5]");
     EXPECT_EQ(gain_text({2, 0.5, 4, 3}), "2 [0.5, 4] (cannot tell)");
+    EXPECT_EQ(gain_text({1.36, 1.003, 1.85, 3}), "1.36 [1.003, 1.85]") << "1 is not within";
     EXPECT_EQ(gain_text({2, 0.01, 215, 3}), "2 (cannot tell)");
     EXPECT_EQ(gain_text({2, 0.9, 4, 2}), "2 (2 seeds: cannot tell)");
     EXPECT_EQ(time_text(Interval{3, 2, 4, 3}, false), "3 s [2 s, 4 s]");
