@@ -8,8 +8,8 @@
 
 namespace treefarm {
 
-/// How many times as fast a render by another estimator is expected to be to equal error; all 0 if one of the two is
-/// unknown. The interval takes both probes for independent.
+/// Expected speed of a render by another estimator, to equal error and in multiples of the own one; 0 if one of the two
+/// is unknown. The interval takes both probes for independent.
 Expected times_as_fast(const Expectation& other, const Expectation& own);
 
 /// Advice in words, from probes of both estimators: to take the other one only where it is surely faster. "": nothing

@@ -33,7 +33,7 @@ struct PlanOptions {
     double seconds() const { return probe_seconds.value_or(kProbeSeconds); }
 };
 
-/// What a plan says before its lists.
+/// Beginning of a plan: forecast and advice.
 struct Findings {
     std::string answer;               ///< text
     nlohmann::ordered_json expected;  ///< null without a probe
