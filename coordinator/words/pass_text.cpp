@@ -18,12 +18,12 @@ bool is_known(const ErrorForecast& forecast) {
            std::isfinite(forecast.seconds);
 }
 
-/// "half of it in about 1:10"; empty if unknown, or if nothing is left to do.
+/// "half in about 1:10"; empty if unknown, or if nothing is left to do.
 std::string outlook_text(const PassReport& r) {
     const bool asked = r.target.relative_error > 0;
     const ErrorForecast& forecast = asked ? r.target : r.halving;
     if (!is_known(forecast)) return "";
-    const std::string what = asked ? fmt::format("{:.3g} %", 100 * forecast.relative_error) : "half of it";
+    const std::string what = asked ? fmt::format("{:.3g} %", 100 * forecast.relative_error) : "half";
     return what + " in " + trust_words(forecast.trust) + rough_duration_text(forecast.seconds);
 }
 

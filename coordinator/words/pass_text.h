@@ -7,7 +7,7 @@
 
 namespace treefarm {
 
-/// Short line on a pass for any user: "pass 6/7   63 spp   7.1 s   error 42.8 %   half of it in about 1:10". With a
+/// Short line on a pass for any user: "pass 6/7   63 spp   7.1 s   error 42.8 %   half in about 1:10". With a
 /// target error the time is until that. Unknown figures are omitted. `pass_count`: 0 if unknown.
 std::string pass_line(const PassReport& report, std::size_t pass_count);
 
