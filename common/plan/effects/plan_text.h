@@ -11,8 +11,8 @@ namespace treefarm {
 /// line end.
 std::string plan_brief(const EffectPlan& plan, const std::string& scene);
 
-/// plan_brief(), and the lists: effects that are on, off (with reasons), memory by use, and kernels. `scene`: name of the
-/// scene file. Ends with a line end.
+/// plan_brief(), and the lists: effects that are on, off (with reasons), memory by use, and kernels. `scene`: name of
+/// the scene file. Ends with a line end.
 std::string plan_text(const EffectPlan& plan, const std::string& scene);
 
 /// Plan as JSON for programs (docs/generated/effects.md, "the JSON form"). Ends with a line end.
