@@ -175,8 +175,7 @@ TEST(Ending, AFireflyIsNamedAndCanBeSeen) {
     ASSERT_NE(at, std::string::npos) << log;
     const std::size_t begin = at + mark.size();
     const Ending seen =
-        Program(std::vector<std::string>{"sh", "-c", log.substr(begin, log.find('\n', at) - begin)})
-            .wait(kSoon);
+        Program(std::vector<std::string>{"sh", "-c", log.substr(begin, log.find('\n', at) - begin)}).wait(kSoon);
     EXPECT_EQ(seen.code, 0) << seen.output;
     const nlohmann::json worst = nlohmann::json::parse(std::ifstream(folder / "summary.json"))["tail_worst"][0];
     std::ostringstream location;
@@ -197,7 +196,8 @@ TEST(Ending, ADebugTileIsTracedAlone) {
     EXPECT_EQ(ending.code, 0) << ending.output;
     EXPECT_NE(ending.output.find("pass 3 pixels (8, 8) to below (24, 16): 512 paths"), std::string::npos)
         << ending.output;
-    for (const char* wrong : {"3,8,8,8,16,0", "3,8,8,33,16,0", "9,8,8,24,16,0", "3,8,8,24,16,7", "3,8,8,24,16,x", "0,8,8,24,16,0"})
+    for (const char* wrong :
+         {"3,8,8,8,16,0", "3,8,8,33,16,0", "9,8,8,24,16,0", "3,8,8,24,16,7", "3,8,8,24,16,x", "0,8,8,24,16,0"})
         EXPECT_EQ(traced(wrong).code, 2) << wrong;
 }
 
