@@ -17,7 +17,8 @@ namespace {
 
 const Location kHere{"--debug-sample", 0, 0};
 
-/// Numbers separated by commas, `count` of them; throws InputError for other texts.
+/// Numbers separated by commas, `count` of them, the first one a pass counted from 1, returned as an index. Throws
+/// InputError for other texts.
 std::vector<std::uint32_t> parse_numbers(const std::string& text, std::size_t count) {
     std::vector<std::uint32_t> values(count);
     const char* at = text.data();
@@ -30,6 +31,8 @@ std::vector<std::uint32_t> parse_numbers(const std::string& text, std::size_t co
                              "write pass,x,y,sample, like 3,120,64,0, or pass,x0,y0,x1,y1,chunk");
         at = next + 1;
     }
+    if (values[0] == 0) throw InputError(kHere, "there is no pass 0", "passes count from 1, as in a render's messages");
+    --values[0];
     return values;
 }
 
@@ -79,8 +82,8 @@ void trace_tile(const RenderRequest& request, const std::string& name, const Tel
     output.begin(guide.regions().distribution_count(), pass.layers.splats);
     const auto edge = [](std::uint32_t value) { return static_cast<std::uint16_t>(value); };
     render(pass, guide, {n[0], edge(n[1]), edge(n[2]), edge(n[3]), edge(n[4]), n[5]}, output);
-    fmt::print("pass {} pixels ({}, {}) to below ({}, {}): {} paths, {} rays, {:.3f} s\n", n[0], n[1], n[2], n[3], n[4],
-               output.stats.paths, output.stats.rays + output.stats.shadow_rays, output.stats.trace_seconds);
+    fmt::print("pass {} pixels ({}, {}) to below ({}, {}): {} paths, {} rays, {:.3f} s\n", n[0] + 1, n[1], n[2], n[3],
+               n[4], output.stats.paths, output.stats.rays + output.stats.shadow_rays, output.stats.trace_seconds);
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ Json mixture_json(const MixtureQuantiles& m) {
 }
 
 Json statistics_json(const TreeStatistics& s) {
-    return {{"pass", s.pass},
+    return {{"pass", s.pass + 1},
             {"trained", s.trained},
             {"nodes", s.nodes},
             {"regions", s.regions},
@@ -131,7 +131,7 @@ Json point_json(const PointReport& point) {
 
 void print_text(const InspectReport& report, std::ostream& out) {
     const TreeStatistics& s = report.statistics;
-    out << fmt::format("{}: the tree that guides pass {}\n", report.directory, s.pass);
+    out << fmt::format("{}: the tree that guides pass {}\n", report.directory, s.pass + 1);
     out << fmt::format("  {} regions in {} nodes, {} cells; ", s.regions, s.nodes, s.region_cells);
     out << (s.views == 0 ? std::string("no T2\n")
                          : fmt::format("{} T2s of {} views, {} cells, in {} regions ({:.1f} %)\n", s.t2s, s.views,

@@ -22,6 +22,7 @@
 #include "common/base/host.h"
 #include "common/base/interrupt.h"
 #include "common/base/refuse.h"
+#include "common/base/text/duration_text.h"
 #include "common/base/timer.h"
 #include "common/comm/join_ticket.h"
 #include "common/comm/tcp_channel.h"
@@ -88,7 +89,7 @@ class Guest {
             if (told_) return end("left the render, as it was told");
             if (is_over(options_) || !(lost || options_.wait_seconds)) return end("the render is over");
             const double patience = options_.wait_seconds.value_or(kReturnSeconds);
-            log_->info("waiting {:.3g} s for the render to come back", patience);
+            log_->info("waiting {} for the render to come back", limit_text(patience));
             try {
                 channel = knock(patience, [this] { return is_over(options_); });
             } catch (const InputError& error) {

@@ -67,14 +67,19 @@ int run(int argc, char** argv) {
     app.footer(std::string("treefarm COMMAND --help lists the options of a command and their defaults, treefarm keys "
                            "those of a job.\n") +
                kExitCodesText);
-    const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+    std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+    if (!arguments.empty() && arguments[0] == "help") {  // treefarm help [COMMAND]
+        arguments.erase(arguments.begin());
+        arguments.resize(std::min<std::size_t>(arguments.size(), 1));
+        arguments.emplace_back("--help");
+    }
     if (!arguments.empty())
         if (const std::string message = unknown_command(app, arguments[0]); !message.empty())
             return fail(launch, message, 2);
     if (const std::string message = malformed_argument(arguments); !message.empty()) return fail(launch, message, 2);
     try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success& done) {  // --help, --version
+        app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes them from the back
+    } catch (const CLI::Success& done) {                                            // --help, --version
         return launch.rank == 0 ? app.exit(done) : 0;
     } catch (const CLI::ParseError& error) {
         return fail(launch, usage_message(app, error, arguments), 2);

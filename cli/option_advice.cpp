@@ -43,7 +43,10 @@ const std::vector<Foreign>& foreign_options() {
         {{"--define"}, "write -D name=value"},
         {{"--gpu", "--device", "--cycles-device", "--cuda", "--optix"}, "it renders on processors only"},
         {{"--aov", "--aovs", "--passes", "--layers"},
-         "there are no further layers in this version; image.exr holds colour, variance.* and two halves"},
+         "write --set output.aovs=albedo,normal,depth; treefarm keys output.aovs lists the layers"},
+        {{"--integrator", "--estimator", "--renderer"},
+         "write --set integrator.type=NAME; treefarm keys integrator.type lists them"},
+        {{"--guiding", "--guide"}, "write --set guiding.type=NAME; treefarm keys guiding.type lists them"},
         {{"--exposure", "--tonemap", "--tone-map", "--gamma", "--colorspace"},
          "image.exr is linear, for a viewer to show; preview.png has exposure 0 and sRGB"},
         {{"--spectral", "--mode", "--variant", "-m"}, "it renders linear sRGB colours only"},
@@ -69,6 +72,11 @@ std::string option_advice(const std::string& option, const std::string& command)
             return foreign.advice;
     for (const JobKey& key : job_keys())
         if (names_key(option, key.name)) return "it is a key of the job: write --set " + key.name + "=VALUE";
+    const std::string section = option.substr(std::min(option.find_first_not_of('-'), option.size()));
+    const auto is_in_section = [&](const JobKey& key) { return key.name.starts_with(section + "."); };
+    if (std::any_of(job_keys().begin(), job_keys().end(), is_in_section))
+        return "it is a table of keys: treefarm keys " + section + ". lists them, and --set " + section +
+               ".KEY=VALUE sets one";
     return "";
 }
 

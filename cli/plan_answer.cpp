@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "coordinator/words/pass_text.h"
+#include "common/base/text/duration_text.h"
 
 namespace treefarm {
 
@@ -20,19 +20,9 @@ std::string spp_text(const Expected& spp) {
     return fmt::format("about {} spp [{}, {}]", count_text(spp.value), count_text(spp.low), count_text(spp.high));
 }
 
-std::string seconds_text(const Expected& seconds) {
-    if (seconds.low == seconds.high) return duration_text(seconds.value);
-    return fmt::format("{} [{}, {}]", duration_text(seconds.value), duration_text(seconds.low),
-                       duration_text(seconds.high));
-}
-
 std::string error_text(const Expected& error) {
     if (error.low == error.high) return percent_text(error.value) + " %";
     return fmt::format("{} % [{}, {}]", percent_text(error.value), percent_text(error.low), percent_text(error.high));
-}
-
-std::string machine_text(const Probe& probe) {
-    return fmt::format("on this machine ({} {})", probe.threads, probe.threads == 1 ? "thread" : "threads");
 }
 
 const char* end_word(RenderEnd end) {
@@ -46,11 +36,7 @@ std::uint32_t most_spp(const Resolved& job) {
 
 std::string question_text(const Resolved& job, RenderEnd end) {
     if (end == RenderEnd::error) return percent_text(job.budget.error) + " % error";
-    return end == RenderEnd::seconds ? duration_text(job.budget.seconds) : count_text(most_spp(job)) + " spp";
-}
-
-nlohmann::ordered_json figure_json(const Expected& figure) {
-    return {{"value", figure.value}, {"low", figure.low}, {"high", figure.high}};
+    return end == RenderEnd::seconds ? limit_text(job.budget.seconds) : count_text(most_spp(job)) + " spp";
 }
 
 /// Three significant digits of a count, so that a forecast does not look like a count.
@@ -98,33 +84,48 @@ PlanAnswer answer_by_probe(const Resolved& job, Probe probe, double pixel_ratio)
     return answer;
 }
 
+std::string answer_words(const Resolved& job, const PlanAnswer& answer) {
+    const Expectation& expected = answer.expected;
+    const std::string text = question_text(job, answer.end) + ": ";
+    if (!expected.known) return text + "not known: " + expected.unknown;
+    if (answer.end == RenderEnd::error) return text + spp_text(expected.spp) + ", " + time_text(expected.seconds);
+    if (answer.end == RenderEnd::seconds)
+        return text + spp_text(expected.spp) + ", error " + error_text(expected.error);
+    return text + "about " + time_text(expected.seconds) + ", error " + error_text(expected.error);
+}
+
 std::string answer_text(const Resolved& job, const PlanAnswer& answer) {
     const Probe& probe = answer.probe;
     const Expectation& expected = answer.expected;
-    const std::string question = question_text(job, answer.end);
-    std::string text = question + ": ";
-    if (!expected.known) {
-        text += "not known: " + expected.unknown + "\n";
-    } else {
-        if (answer.end == RenderEnd::error)
-            text += spp_text(expected.spp) + ", " + seconds_text(expected.seconds);
-        else if (answer.end == RenderEnd::seconds)
-            text += spp_text(expected.spp) + ", error " + error_text(expected.error);
-        else
-            text += "about " + seconds_text(expected.seconds) + ", error " + error_text(expected.error);
-        text += " " + machine_text(probe) + "\n";
+    std::string text = answer_words(job, answer);
+    if (expected.known) {
+        text += " " + machine_text(probe);
         if (job.budget.error > 0 && answer.end == RenderEnd::seconds)
-            text += fmt::format("the {} % asked for would take longer\n", percent_text(job.budget.error));
+            text += fmt::format("\nthe {} % asked for would take longer", percent_text(job.budget.error));
         if (has_open_budget(job) && answer.end == RenderEnd::spp)
-            text += fmt::format("budget.max_spp = {} ends it there\n", job.budget.max_spp);
+            text += fmt::format("\nbudget.max_spp = {} ends it there", job.budget.max_spp);
         if (expected.reached)
-            text += probe.state.error.rmse > 0 ? "the probe has come so far already\n" : "no noise was seen\n";
+            text += probe.state.error.rmse > 0 ? "\nthe probe has come so far already" : "\nno noise was seen";
     }
     return text +
            fmt::format(
-               "by a probe of {} spp in {} passes{}; the intervals are where most renders end up, and narrower after a "
-               "longer one (--probe 30)\n\n",
+               "\nby a probe of {} spp in {} passes{}; the intervals are where most renders end up, and narrower after "
+               "a longer one (--probe 30)\n\n",
                probe.state.spp(), probe.state.passes.size(), answer.pixel_ratio > 1 ? " on a smaller film" : "");
+}
+
+std::string time_text(const Expected& seconds) {
+    if (seconds.low == seconds.high) return duration_text(seconds.value);
+    return fmt::format("{} [{}, {}]", duration_text(seconds.value), duration_text(seconds.low),
+                       duration_text(seconds.high));
+}
+
+std::string machine_text(const Probe& probe) {
+    return fmt::format("on this machine ({} {})", probe.threads, probe.threads == 1 ? "thread" : "threads");
+}
+
+nlohmann::ordered_json figure_json(const Expected& figure) {
+    return {{"value", figure.value}, {"low", figure.low}, {"high", figure.high}};
 }
 
 nlohmann::ordered_json answer_json(const PlanAnswer& answer) {

@@ -93,7 +93,7 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
     add_display_option(*command, options->display_server);
     add_farm_options(*command, options->farm);
     add_text_option(*command, "--debug-sample", options->debug_sample,
-                    "pass,x,y,sample: trace this sample and print its path; pass,x0,y0,x1,y1,chunk: trace this tile");
+                    "pass,x,y,sample: print one path, vertex by vertex; pass,x0,y0,x1,y1,chunk: trace one tile");
     command->footer(std::string(kDefaultsText) + "\n" + kExitCodesText);
     command->callback([options, launch, &exit_code] {
         const auto read = [&] { return read_request(*options); };

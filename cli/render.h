@@ -58,6 +58,9 @@ RenderRequest read_request(const RenderOptions& options);
 /// or tile.
 void debug_sample(const RenderRequest& request, const std::string& name, const TellMessage& tell);
 
+/// Options of one frame of a shot: placeholders such as %d are replaced by its number.
+RenderOptions frame_options(RenderOptions options, int frame);
+
 /// Folder of a shot.
 std::filesystem::path shot_directory(const RenderOptions& options);
 

@@ -15,16 +15,6 @@ namespace treefarm {
 
 namespace {
 
-/// Options of one frame's render: %d is replaced by its number.
-RenderOptions frame_options(RenderOptions options, int frame) {
-    const auto put = [frame](std::string& text) { text = for_frame(text, frame); };
-    put(options.input);
-    put(options.sensor);
-    std::for_each(options.set.begin(), options.set.end(), put);
-    std::for_each(options.defines.begin(), options.defines.end(), put);
-    return options;
-}
-
 /// Run directory of the model with which a frame begins: that of an earlier start, if there was one; else that of the
 /// nearest earlier frame with a model. Empty: none.
 std::string carried_model(const Shot& shot, int frame) {
@@ -72,6 +62,15 @@ bool varies(const RenderOptions& options) {
 }
 
 }  // namespace
+
+RenderOptions frame_options(RenderOptions options, int frame) {
+    const auto put = [frame](std::string& text) { text = for_frame(text, frame); };
+    put(options.input);
+    put(options.sensor);
+    std::for_each(options.set.begin(), options.set.end(), put);
+    std::for_each(options.defines.begin(), options.defines.end(), put);
+    return options;
+}
 
 std::filesystem::path shot_directory(const RenderOptions& options) {
     if (!options.run_directory.empty()) return options.run_directory;

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <iostream>
+#include <map>
 #include <memory>
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/observer.h"
 #include "cli/option_values.h"
+#include "cli/plan_answer.h"
+#include "cli/probe_here.h"
 #include "cli/this_build.h"
+#include "common/base/host.h"
 #include "common/runs/run_files.h"
 #include "coordinator/render/read_request.h"
+#include "coordinator/study/study_list.h"
 #include "coordinator/study/study_run.h"
 #include "report/figure_export.h"
 #include "report/price_list.h"
@@ -25,6 +31,8 @@ struct StudyOptions {
     std::string directory;
     FarmOptions farm;
     bool dry_run = false;
+    bool no_probe = false;
+    std::optional<double> probe_seconds;
     bool overwrite = false;
     std::string command;
 };
@@ -43,11 +51,42 @@ Study read_study_for(const StudyOptions& options) {
     return study;
 }
 
+/// Default length of a dry run's probes, in seconds: each scene and method has one.
+constexpr double kProbeOfCell = 1;
+
+/// Lists the cells, and what the missing ones cost: a budget of seconds by itself, other budgets by probes.
+int dry_run(const StudyOptions& options) {
+    const unsigned threads = options.farm.threads > 0 ? options.farm.threads : affinity_threads();
+    std::map<std::string, std::pair<Probe, double>> probes;  // by scene and method, with the ratio of pixels
+    bool interrupted = false;
+    const CostOfRender cost = [&](RenderRequest& request, const std::string& name) -> std::optional<Expected> {
+        const Resolved& job = request.content.plan.job;
+        Expected seconds{job.budget.seconds, job.budget.seconds, job.budget.seconds};
+        if (job.budget.seconds == 0 || job.budget.error > 0) {
+            if (options.no_probe || interrupted) return {};
+            const auto [at, is_new] = probes.try_emplace(name);
+            auto& [probe, pixel_ratio] = at->second;
+            if (is_new) {
+                std::fprintf(stderr, "treefarm: probing %s\n", name.c_str());
+                auto [on_film, ratio] = smaller_film(request);
+                pixel_ratio = ratio;
+                probe = probe_here(on_film, options.probe_seconds.value_or(kProbeOfCell), threads);
+                interrupted = probe.interrupted;
+            }
+            const Expectation expected = answer_by_probe(job, probe, pixel_ratio).expected;
+            if (interrupted || !expected.known) return {};
+            seconds = expected.seconds;
+        }
+        return Expected{threads * seconds.value, threads * seconds.low, threads * seconds.high};
+    };
+    const StudyCost all = list_cells(read_study_for(options), {.fingerprint = this_build()}, cost, std::cout);
+    if (const std::string text = cost_text(all); !text.empty())
+        std::cout << text << "; this machine has " << threads << (threads == 1 ? " thread\n" : " threads\n");
+    return interrupted ? 3 : 0;
+}
+
 int study(const LaunchEnvironment& launch, const StudyOptions& options) {
-    if (options.dry_run) {
-        if (launch.rank == 0) list_cells(read_study_for(options), {.fingerprint = this_build()}, std::cout);
-        return 0;
-    }
+    if (options.dry_run) return launch.rank == 0 ? dry_run(options) : 0;
     if (is_separate_world(launch)) return 2;
     Study study;
     FarmTask task;
@@ -151,7 +190,12 @@ void add_study_command(CLI::App& app, const LaunchEnvironment& launch, const std
     add_text_option(*command, "--dir", options->directory, "where results go (default: directory in the file)");
     add_farm_options(*command, options->farm);
     command->add_flag("--overwrite", options->overwrite, "replace the other study that the folder holds");
-    command->add_flag("--dry-run", options->dry_run, "list the cells, and which are done; render nothing");
+    CLI::Option* dry = command->add_flag("--dry-run", options->dry_run,
+                                         "list the cells, which are done, and the time of the others; write nothing");
+    add_seconds_option(*command, "--probe", options->probe_seconds,
+                       "of a dry run: how long to render each scene and method for that (default: 1)")
+        ->needs(dry);
+    command->add_flag("--no-probe", options->no_probe, "of a dry run: render nothing for that")->needs(dry);
     command->footer(kExitCodesText);
     command->callback([options, launch, &exit_code] { exit_code = study(launch, *options); });
 }

@@ -5,12 +5,20 @@
 
 #include <cmath>
 
+#include "common/base/text/duration_text.h"
+
 namespace treefarm {
 
 namespace {
 
 /// Ratio of its bounds above which an interval is not shown.
 constexpr double kWidest = 10;
+
+/// A bound with three digits, or more where it would read as the 1 that it is not.
+std::string bound_text(double bound) {
+    const std::string text = fmt::format("{:.3g}", bound);
+    return text == "1" && bound != 1 ? fmt::format("{:.4g}", bound) : text;
+}
 
 bool has_interval(const Interval& interval) {
     return interval.values >= kLeastSeeds && std::isfinite(interval.low);
@@ -25,7 +33,7 @@ bool differs_from_one(const Interval& ratio) {
 std::string interval_text(const Interval& interval) {
     if (!std::isfinite(interval.mean)) return "?";
     std::string text = fmt::format("{:.3g}", interval.mean);
-    if (has_interval(interval)) text += fmt::format(" [{:.3g}, {:.3g}]", interval.low, interval.high);
+    if (has_interval(interval)) text += fmt::format(" [{}, {}]", bound_text(interval.low), bound_text(interval.high));
     return text;
 }
 
@@ -38,12 +46,9 @@ std::string gain_text(const Interval& ratio) {
 }
 
 std::string time_text(double seconds, bool of_cores) {
-    const char* of = of_cores ? "core-" : "";
     if (!std::isfinite(seconds)) return "?";
-    if (seconds < 120) return fmt::format("{:.3g} {}s", seconds, of);
-    if (seconds < 7200) return fmt::format("{:.3g} {}min", seconds / 60, of);
-    return seconds < 360'000 ? fmt::format("{:.3g} {}h", seconds / 3600, of)
-                             : fmt::format("{:.3g} {}d", seconds / 86400, of);
+    const std::string text = seconds < 59.95 ? fmt::format("{:.3g} s", seconds) : duration_text(seconds);
+    return of_cores ? text + " of a core" : text;
 }
 
 std::string time_text(const Interval& seconds, bool of_cores) {

@@ -21,7 +21,7 @@ std::string interval_text(const Interval& interval);
 /// Ratio in words: "2.1 [1.8, 2.4]", with "cannot tell" if it does not differ significantly from 1.
 std::string gain_text(const Interval& ratio);
 
-/// Time with its unit: "3.2 s", "4.1 min"; core-seconds: "3.2 core-s".
+/// Time: "3.2 s", "1:40" (minutes), "2:30:00" (hours); core-seconds: "1:40 of a core".
 std::string time_text(double seconds, bool of_cores);
 /// Time with its interval, unless that spans more than a factor of ten.
 std::string time_text(const Interval& seconds, bool of_cores);

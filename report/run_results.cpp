@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <set>
 
 #include "common/base/error.h"
@@ -21,7 +22,7 @@ using Settings = std::map<std::string, std::string>;
 struct Run {
     CellResult cell;
     std::string scene_file;
-    Settings settings;  ///< keys of job.toml without seed, budget and image size
+    Settings settings;  ///< keys of job.toml without seed and image size
 };
 
 /// Settings of a job.toml in the form that this program writes: [section] lines, then key = value.
@@ -59,8 +60,7 @@ Run read_run(const std::filesystem::path& folder) {
         if (const auto seed = run.settings.find("sampler.seed"); seed != run.settings.end())
             run.cell.seed = std::strtoull(seed->second.c_str(), nullptr, 10);
         std::erase_if(run.settings, [](const auto& setting) {
-            return setting.first == "sampler.seed" || setting.first.starts_with("budget.") ||
-                   setting.first.starts_with("image.");
+            return setting.first == "sampler.seed" || setting.first.starts_with("image.");
         });
         return run;
     } catch (const RunJson::exception& error) {
@@ -106,6 +106,24 @@ void add_once(std::vector<Named>& list, Named one) {
         list.push_back(std::move(one));
 }
 
+/// Whether all methods of a scene have the seeds of its first one, so that they can be paired.
+bool have_equal_seeds(const StudyResults& results) {
+    std::map<std::string, std::map<std::string, std::set<std::size_t>>> seeds;  // by scene and method
+    for (const CellResult& cell : results.cells)
+        seeds[cell.scene][cell.method].insert(cell.repetition);
+    return std::all_of(seeds.begin(), seeds.end(), [](const auto& scene) {
+        return std::all_of(scene.second.begin(), scene.second.end(),
+                           [&](const auto& method) { return method.second == scene.second.begin()->second; });
+    });
+}
+
+/// Numbers the renders of each method, so that those of unequal seeds are compared in their order.
+void count_renders(StudyResults& results) {
+    std::map<std::pair<std::string, std::string>, std::size_t> counts;
+    for (CellResult& cell : results.cells)
+        cell.repetition = counts[{cell.scene, cell.method}]++;
+}
+
 }  // namespace
 
 bool is_run_folder(const std::filesystem::path& folder) {
@@ -146,6 +164,7 @@ StudyResults read_run_results(std::span<const std::filesystem::path> folders) {
         results.cells.push_back(std::move(cell));
     }
     results.baseline = results.methods.front().name;
+    if (!have_equal_seeds(results)) count_renders(results);
     return results;
 }
 

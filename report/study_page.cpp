@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
 
 #include "report/effect_costs.h"
 #include "report/html.h"
@@ -28,6 +29,13 @@ constexpr double kReferenceMargin = 3;
 std::string section(const std::string& title, const std::string& note, const std::string& content) {
     if (content.empty()) return "";
     return "<h3>" + title + "</h3>\n" + (note.empty() ? "" : "<p class=\"note\">" + note + "</p>\n") + content;
+}
+
+/// A section that is closed until a reader opens it.
+std::string fold(const std::string& title, const std::string& note, const std::string& content) {
+    if (content.empty()) return "";
+    return "<details><summary>" + title + "</summary>\n" +
+           (note.empty() ? "" : "<p class=\"note\">" + note + "</p>\n") + content + "</details>\n";
 }
 
 /// One part of the page for each clock; the switch at the top of the page shows one of them.
@@ -60,17 +68,19 @@ std::string reference_note(const StudyResults& results, const SceneResult& scene
     return html;
 }
 
-std::string charts(const StudyResults& results, const SceneResult& scene) {
-    std::string html = by_clock([&](const Clock& clock) {
+/// Convergence charts of some measures.
+std::string charts(const StudyResults& results, const SceneResult& scene, std::span<const Measure> by) {
+    return by_clock([&](const Clock& clock) {
         std::string pictures;
-        for (const Measure& measure : results.measured_by)
+        for (const Measure& measure : by)
             if (const std::string svg = draw_svg(convergence_chart(results, scene, measure, clock)); !svg.empty())
                 pictures += "<div>" + svg + "</div>\n";
         return pictures.empty() ? "" : "<div class=\"charts\">\n" + pictures + "</div>\n";
     });
-    return section("Error over time",
-                   "Line: geometric mean over seeds; band: its 95 % interval, from three seeds on; points: passes.",
-                   html);
+}
+
+std::string time_part(const StudyResults& results, const SceneResult& scene, const Measure& measure) {
+    return by_clock([&](const Clock& clock) { return time_table(results, scene, measure, clock); });
 }
 
 std::string predictions(const StudyResults& results, const SceneResult& scene) {
@@ -78,52 +88,71 @@ std::string predictions(const StudyResults& results, const SceneResult& scene) {
     std::string pictures;
     for (const Picture& picture : {estimate_chart(results, scene), forecast_chart(results, scene)})
         if (!picture.script.empty()) pictures += "<div>" + draw_svg(picture) + "</div>\n";
-    return section("Predicted against actual",
-                   "Every pass of every cell: the error that it claimed, and when it said that half of it (or the "
-                   "error asked for) would be reached. \"At most\" is said while the tree still learns fast, "
-                   "\"roughly\" where the error itself is not known well; the pictures leave out the bounds.",
-                   prediction_table(results, scene) + "<div class=\"charts\">\n" + pictures + "</div>\n");
+    return fold("Predicted against actual",
+                "Every pass of every cell: the error that it claimed, and when it said that half of it (or the "
+                "error asked for) would be reached. \"At most\" is said while the tree still learns fast, "
+                "\"roughly\" where the error itself is not known well; the pictures leave out the bounds.",
+                prediction_table(results, scene) + "<div class=\"charts\">\n" + pictures + "</div>\n");
+}
+
+/// Measures besides the first: they weigh dark and bright pixels otherwise.
+std::string other_measures(const StudyResults& results, const SceneResult& scene) {
+    const std::span<const Measure> others = std::span(results.measured_by).subspan(1);
+    if (others.empty()) return "";
+    std::string html = by_clock([&](const Clock& clock) { return other_measures_table(results, scene, clock); }) +
+                       charts(results, scene, others);
+    for (const Measure& measure : others)
+        html += section(std::string("Time to an error: ") + measure.name, "", time_part(results, scene, measure));
+    return fold("Other measures",
+                "Relative errors of each pixel: dark pixels count as much as bright ones. A claim should hold by all "
+                "measures.",
+                html);
 }
 
 /// HTML of one scene, for one budget.
 std::string scene_part(const StudyResults& results, const SceneResult& scene) {
+    const std::string name = results.measured_by.front().name;
     std::string html =
-        section("At the end of the budget",
-                "Gain: how many times as fast as the baseline to an equal error, the ratio of squared error times "
-                "time, with its 95 % interval over pairs of seeds. A claim needs more than one column.",
-                by_clock([&](const Clock& clock) { return final_table(results, scene, clock); }));
-    html += charts(results, scene);
-    for (const Measure& measure : results.measured_by)
-        html += section(
-            std::string("Time to an error: ") + measure.name,
-            "Geometric mean with its 95 % interval over seeds, and how many times as fast as the baseline. ~ and grey: "
-            "beyond what was rendered, extrapolated as the inverse square root of time from the last pass.",
-            by_clock([&](const Clock& clock) { return time_table(results, scene, measure, clock); }));
+        section("Error at the end of the budget",
+                "Error: " + name +
+                    ", as --error counts it; geometric mean over seeds. Times as fast: to an equal "
+                    "error, by the ratio of squared error times time, with its 95 % interval over pairs of seeds.",
+                by_clock([&](const Clock& clock) { return headline_table(results, scene, clock); }));
+    html += section("Error over time",
+                    "Line: geometric mean over seeds; band: its 95 % interval, from three seeds on; points: passes.",
+                    charts(results, scene, {results.measured_by.data(), 1}));
     html +=
         section("Images",
                 "First seed. Wheel zooms, dragging moves, in all pictures at once; so do + and - and the arrows. In "
                 "false colour: mean of |a - b| / (b + 0.01) over channels; black 0, white 1 at exposure 0.",
                 viewer_data(results, scene));
-    html += section("Further figures",
-                    "Means over seeds. Share of the processors: core-seconds over seconds x threads while workers "
-                    "traced; below 80 % something else had them, or workers waited for each other.",
-                    figures_table(results, scene));
-    html += section("Nonzero paths and memory per pass",
-                    "Share of camera paths that carried radiance; the tree on a worker, sampling form and sums.",
-                    pass_table(results, scene));
     html += section("Trees",
                     "What treefarm inspect drew: learned distributions beside the true ones on the direction square "
                     "(logarithmic, three decades below white), and over the film.",
                     tree_pictures(results, scene));
-    html += section("Where the time went",
-                    "Of the seconds of the coordinator's clock, mean over seeds; collect: workers trace.",
-                    phase_table(results, scene));
-    html += section("Workers", "Thread-seconds tracing and recording, mean over seeds.", worker_table(results, scene));
+    html +=
+        fold("Time to an error",
+             "Geometric mean with its 95 % interval over seeds, and &times; how many times as fast as the baseline. "
+             "~ and grey: beyond what was rendered, extrapolated as the inverse square root of time from the last "
+             "pass.",
+             time_part(results, scene, results.measured_by.front()));
+    html += other_measures(results, scene);
+    html += fold("Further figures",
+                 "Means over seeds. Share of the processors: core-seconds over seconds x threads while workers "
+                 "traced; below 80 % something else had them, or workers waited for each other.",
+                 figures_table(results, scene));
+    html += fold("Nonzero paths and memory per pass",
+                 "Share of camera paths that carried radiance; the tree on a worker, sampling form and sums.",
+                 pass_table(results, scene));
+    html += fold("Where the time went",
+                 "Of the seconds of the coordinator's clock, mean over seeds; collect: workers trace.",
+                 phase_table(results, scene));
+    html += fold("Workers", "Thread-seconds tracing and recording, mean over seeds.", worker_table(results, scene));
     html += predictions(results, scene);
-    return html + section("Effect plans",
-                          "What was simulated. Core-seconds with the effect over those without, where the study has "
-                          "methods that differ only by that switch: 95 % interval over pairs of seeds.",
-                          plan_tables(results, scene));
+    return html + fold("Effect plans",
+                       "What was simulated. Core-seconds with the effect over those without, where the study has "
+                       "methods that differ only by that switch: 95 % interval over pairs of seeds.",
+                       plan_tables(results, scene));
 }
 
 bool has_cells(const StudyResults& results, const SceneResult& scene) {
@@ -135,7 +164,7 @@ std::string scene_parts(const StudyResults& results, const SceneResult& scene) {
     if (!has_cells(results, scene)) return "";
     std::string html = "<h2>" + html_text(scene.name) + "</h2>\n" + reference_note(results, scene);
     if (results.budgets.size() == 1) return html + scene_part(results, scene);
-    html += section("Budget by budget", "Error at the end, and gain over the baseline by it.",
+    html += section("Budget by budget", "Error at the end, and &times; how many times as fast as the baseline.",
                     by_clock([&](const Clock& clock) { return budget_table(results, scene, clock); }));
     for (const std::string& budget : results.budgets) {
         const StudyResults part = results.of_budget(budget);

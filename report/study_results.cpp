@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/study_results.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -174,6 +175,7 @@ StudyResults read_study_results(const std::filesystem::path& folder) {
     }
     if (results.cells.empty())
         throw InputError(Location{folder.string()}, "no cell is done yet", "run the study first");
+    results.measured_by = distinct_measures(results.cells);
     return results;
 }
 
@@ -183,6 +185,20 @@ const std::vector<Measure>& measures() {
         {"root_rel_mse", "root of relMSE", root_rel_mse},
         {"root_rel_mse_trimmed", "root of relMSE, worst 0.1 % dropped", root_rel_mse_trimmed}};
     return all;
+}
+
+std::vector<Measure> distinct_measures(const std::vector<CellResult>& cells) {
+    std::vector<Measure> distinct;
+    for (const Measure& measure : measures()) {
+        const auto equals = [&](const Measure& earlier) {
+            return std::all_of(cells.begin(), cells.end(), [&](const CellResult& cell) {
+                return std::all_of(cell.passes.begin(), cell.passes.end(),
+                                   [&](const PassRow& row) { return measure.value(row) == earlier.value(row); });
+            });
+        };
+        if (std::none_of(distinct.begin(), distinct.end(), equals)) distinct.push_back(measure);
+    }
+    return distinct;
 }
 
 const std::vector<Clock>& clocks() {

@@ -43,8 +43,8 @@ std::string gain_cell(const Interval& gain) {
     if (!std::isfinite(gain.mean)) return "?";
     const std::string text = gain_text(gain);
     const std::size_t blank = text.find(' ');
-    if (blank == std::string::npos) return "&times;" + text;
-    return two_lines("&times;" + text.substr(0, blank), text.substr(blank + 1));
+    if (blank == std::string::npos) return text;
+    return two_lines(text.substr(0, blank), text.substr(blank + 1));
 }
 
 /// Whether two gains are significantly on opposite sides of 1: the choice of measure would decide the winner.
@@ -67,33 +67,58 @@ std::vector<double> targets_of(const StudyResults& results, const SceneResult& s
 
 }  // namespace
 
-std::string final_table(const StudyResults& results, const SceneResult& scene, const Clock& clock) {
-    std::vector<std::vector<std::string>> rows = {{"method", "seeds", "spp", clock.name}};
-    for (const Measure& measure : results.measured_by) {
-        rows[0].push_back(measure.name);
-        rows[0].push_back("gain by it");
-    }
+std::string headline_table(const StudyResults& results, const SceneResult& scene, const Clock& clock) {
+    const Measure& measure = results.measured_by.front();
+    const bool of_cores = &clock != &clocks().front();
+    std::vector<std::vector<std::string>> rows = {{"method", "seeds", "samples per pixel",
+                                                   of_cores ? "processor time" : "time", "error",
+                                                   "times as fast as " + html_text(results.baseline)}};
     bool doubtful = false;
     for (const MethodResult& method : results.methods) {
         const Cells cells = results.of(scene.name, method.name);
         if (cells.empty()) continue;
         const auto last = [](auto get) { return [get](const CellResult& cell) { return get(cell.passes.back()); }; };
+        const bool is_baseline = method.name == results.baseline;
+        const auto gain_by = [&](const Measure& by) {
+            return gain(results, {&scene, 1}, method.name, results.baseline, by, clock);
+        };
         rows.push_back({html_text(method.name), std::to_string(cells.size()),
                         fmt::format("{:.4g}", mean(cells, last([](const PassRow& r) { return double(r.spp_done); }))),
-                        fmt::format("{:.3g}", mean(cells, last(clock.value)))});
-        std::vector<Interval> gains;
-        for (const Measure& measure : results.measured_by) {
-            gains.push_back(gain(results, {&scene, 1}, method.name, results.baseline, measure, clock));
-            rows.back().push_back(percent_text(geometric_mean(values(cells, last(measure.value))).mean));
-            rows.back().push_back(method.name == results.baseline ? "baseline" : gain_cell(gains.back()));
-            doubtful = doubtful || contradict(gains.front(), gains.back()) ||
-                       (gains.size() > 1 && contradict(gains[1], gains.back()));
-        }
+                        time_text(mean(cells, last(clock.value)), of_cores),
+                        percent_text(geometric_mean(values(cells, last(measure.value))).mean),
+                        is_baseline ? "1" : gain_cell(gain_by(measure))});
+        for (std::size_t a = 0; a < results.measured_by.size() && !doubtful; ++a)
+            for (std::size_t b = 0; b < a && !doubtful; ++b)
+                doubtful = contradict(gain_by(results.measured_by[a]), gain_by(results.measured_by[b]));
     }
     std::string html = html_table(rows);
     if (doubtful)
-        html += "<p class=\"warning\">By different measures different methods win: claim none of them alone.</p>\n";
+        html +=
+            "<p class=\"warning\">By other measures another method wins (see \"Other measures\"): claim none of them "
+            "alone.</p>\n";
     return html;
+}
+
+std::string other_measures_table(const StudyResults& results, const SceneResult& scene, const Clock& clock) {
+    std::vector<std::vector<std::string>> rows = {{"method"}};
+    for (std::size_t m = 1; m < results.measured_by.size(); ++m) {
+        rows[0].push_back(results.measured_by[m].name);
+        rows[0].push_back("times as fast as " + html_text(results.baseline));
+    }
+    for (const MethodResult& method : results.methods) {
+        const Cells cells = results.of(scene.name, method.name);
+        if (cells.empty()) continue;
+        rows.push_back({html_text(method.name)});
+        for (std::size_t m = 1; m < results.measured_by.size(); ++m) {
+            const Measure& measure = results.measured_by[m];
+            const auto last = [&](const CellResult& cell) { return measure.value(cell.passes.back()); };
+            rows.back().push_back(percent_text(geometric_mean(values(cells, last)).mean));
+            rows.back().push_back(method.name == results.baseline ? "1"
+                                                                  : gain_cell(gain(results, {&scene, 1}, method.name,
+                                                                                   results.baseline, measure, clock)));
+        }
+    }
+    return rows[0].size() < 2 ? "" : html_table(rows);
 }
 
 std::string figures_table(const StudyResults& results, const SceneResult& scene) {
@@ -143,7 +168,7 @@ std::string time_table(const StudyResults& results, const SceneResult& scene, co
             std::string text = interval == std::string::npos
                                    ? seconds
                                    : two_lines(seconds.substr(0, interval), seconds.substr(interval + 1));
-            if (method.name != results.baseline) text += "<br>" + gain_cell(geometric_ratio(a, b));
+            if (method.name != results.baseline) text += "<br>&times;" + gain_cell(geometric_ratio(a, b));
             row.push_back(beyond ? "<span class=\"beyond\">~" + text + "</span>" : text);
         }
         rows.push_back(row);
@@ -168,7 +193,7 @@ std::string budget_table(const StudyResults& results, const SceneResult& scene, 
                                         return measure.value(cell.passes.back());
                                     })).mean);
             if (!cells.empty() && method != results.baseline)
-                text += "<br>" + gain_cell(gain(part, {&scene, 1}, method, results.baseline, measure, clock));
+                text += "<br>&times;" + gain_cell(gain(part, {&scene, 1}, method, results.baseline, measure, clock));
             rows[m + 1].push_back(text);
         }
     }

@@ -9,8 +9,12 @@ namespace treefarm {
 
 // Tables of a scene's cells, as HTML, of one budget. Intervals are 95 %, of geometric means over the seeds.
 
-/// Errors at the end of the budget, each with the gain over the baseline by that measure.
-std::string final_table(const StudyResults& results, const SceneResult& scene, const Clock& clock);
+/// Error at the end of the budget by the first measure, and how many times as fast as the baseline each method is; a
+/// warning if another measure contradicts.
+std::string headline_table(const StudyResults& results, const SceneResult& scene, const Clock& clock);
+
+/// Errors and gains by the other measures; "" if there is none.
+std::string other_measures_table(const StudyResults& results, const SceneResult& scene, const Clock& clock);
 
 /// Other figures at the end of the budget: seconds, core-seconds, fraction of the processors, other errors.
 std::string figures_table(const StudyResults& results, const SceneResult& scene);

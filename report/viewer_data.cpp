@@ -7,6 +7,7 @@
 
 #include "common/image/exr.h"
 #include "common/runs/run_files.h"
+#include "report/figure_text.h"
 #include "report/html.h"
 
 namespace treefarm {
@@ -27,9 +28,8 @@ nlohmann::json viewer_image(const std::string& name, const std::string& caption,
 
 std::string caption(const StudyResults& results, const CellResult& cell) {
     const PassRow& last = cell.passes.back();
-    std::string text = fmt::format("{:.3g} s, {} spp", last.run_seconds, last.spp_done);
-    for (const Measure& measure : results.measured_by)
-        text += fmt::format(", {} {:.3g} %", measure.name, 100 * measure.value(last));
+    const std::string text = fmt::format("{}, {} spp, error {}", time_text(last.run_seconds, false), last.spp_done,
+                                         percent_text(results.measured_by.front().value(last)));
     return results.has_references ? text + fmt::format(", FLIP {:.3g}", cell.flip) : text;
 }
 

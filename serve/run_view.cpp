@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <ctime>
 #include <limits>
+#include <string_view>
 
 #include "common/base/host.h"
 #include "common/base/text/printable.h"
@@ -23,7 +24,8 @@ constexpr double kSilence = 60.0;
 /// Seconds of silence after which a render without a process on this machine is "killed".
 constexpr double kGone = 3.0;
 
-constexpr std::size_t kLogBytes = 16 << 10;
+constexpr std::size_t kLogBytes = 64 << 10;
+constexpr std::string_view kDetail = " debug: ";  ///< level of the lines for experts, in common/base/log.cpp's format
 constexpr std::size_t kTableBytes = 16 << 20;
 
 /// Contents of a run's files for both views.
@@ -146,7 +148,13 @@ FileJson launch_of(const ConfinedFolder& root, const std::string& path) {
             {"code", number_of(launch, "code")}};
 }
 
-/// Last lines of a log, safe to print.
+/// Whether a line of a log is one that the terminal shows, too: neither its name nor its text holds the level.
+bool is_for_all(std::string_view line) {
+    const std::size_t level = line.find(": ");
+    return level == std::string_view::npos || !line.substr(0, level + 2).ends_with(kDetail);
+}
+
+/// Last lines of a log, without those for experts, safe to print.
 FileJson log_lines(const ConfinedFolder& root, const std::string& path) {
     FileJson lines = FileJson::array();
     const auto text = root.read_end(joined_path(path, kLogFile), kLogBytes);
@@ -155,7 +163,8 @@ FileJson log_lines(const ConfinedFolder& root, const std::string& path) {
     begin = begin == std::string::npos ? 0 : begin;
     for (; begin < text->size();) {
         const std::size_t end = std::min(text->find('\n', begin), text->size());
-        if (end > begin) lines.push_back(printable(std::string_view(*text).substr(begin, end - begin)));
+        const std::string_view line = std::string_view(*text).substr(begin, end - begin);
+        if (!line.empty() && is_for_all(line)) lines.push_back(printable(line));
         begin = end + 1;
     }
     return lines;

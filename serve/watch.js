@@ -23,13 +23,15 @@ const known = value => typeof value === 'number' && isFinite(value);
 const precise = (value, digits = 3) => known(value) ? String(+value.toPrecision(digits)) : '';
 const percent = value => known(value) ? precise(100 * value) + ' %' : '';
 
+// As in the terminal: "7.1 s", "1:40", "2:30:00", "3 days".
 function duration(seconds) {
   if (!known(seconds)) return '';
-  if (seconds < 60) return precise(seconds, 2) + ' s';
-  const minutes = Math.round(seconds / 60);
-  if (minutes < 60) return minutes + ' min';
-  if (minutes < 48 * 60) return Math.floor(minutes / 60) + ' h ' + minutes % 60 + ' min';
-  return Math.round(minutes / 60 / 24) + ' days';
+  if (seconds < 59.5) return precise(seconds, 2) + ' s';
+  const whole = Math.round(seconds), two = number => String(number % 60).padStart(2, '0');
+  const minutes = Math.floor(whole / 60);
+  if (whole < 3600) return minutes + ':' + two(whole);
+  if (whole < 48 * 3600) return Math.floor(minutes / 60) + ':' + two(minutes) + ':' + two(whole);
+  return Math.round(whole / 86400) + ' days';
 }
 
 function large(value) {
@@ -161,7 +163,8 @@ function drawChart(box, view) {
   draw('title', {}, 'Relative error over seconds of rendering, both logarithmic');
   for (const value of ticks(x0, x1, width / 65)) {
     draw('line', {class: 'grid', x1: x(value), x2: x(value), y1: top, y2: height - bottom});
-    draw('text', {x: x(value), y: height - bottom + 15, 'text-anchor': 'middle'}, duration(value));
+    const label = duration(value), half = 3.5 * label.length;  // of a label near the edge, all must be seen
+    draw('text', {x: Math.min(x(value), width - half), y: height - bottom + 15, 'text-anchor': 'middle'}, label);
   }
   for (const value of ticks(y0, y1, height / 28)) {
     draw('line', {class: 'grid', x1: left, x2: width - right, y1: y(value), y2: y(value)});

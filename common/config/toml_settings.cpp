@@ -24,6 +24,28 @@ bool is_section(const std::string& name) {
     return beginning == kDefinesPrefix;
 }
 
+std::string last_part(const std::string& name) {
+    return name.substr(name.find_last_of('.') + 1);
+}
+
+/// Keys, or a section, that a misspelled name may mean: "guiding.type or integrator.type"; "" if none is near. A name
+/// without its section, as "spp", means every key that ends so.
+std::string likely_key(const std::string& name) {
+    std::vector<std::string> names, ends;
+    std::vector<std::string_view> same_end;
+    for (const JobKey& key : job_keys()) {
+        names.push_back(key.name);
+        ends.push_back(last_part(key.name));
+        if (ends.back() == last_part(name)) same_end.push_back(key.name);
+        const std::string section = key.name.substr(0, key.name.find('.'));
+        if (std::find(names.begin(), names.end(), section) == names.end()) names.push_back(section);
+    }
+    if (!same_end.empty()) return listed(same_end);
+    if (const std::string nearest = nearest_word(name, names); !nearest.empty()) return nearest;
+    const std::string end = nearest_word(last_part(name), ends);
+    return end.empty() ? "" : likely_key(end);
+}
+
 [[noreturn]] void refuse_key(const std::string& name, const Location& where) {
     for (const auto& [effect, cure] : effects_without_switch())
         if (name == kEffectsPrefix + effect) throw InputError(where, name + " cannot be switched off by a key", cure);
@@ -32,15 +54,9 @@ bool is_section(const std::string& name) {
     if (is_section(name))
         throw InputError(where, in_quotes(name) + " is no key, but a table of keys",
                          "write [" + name + "] and keys below it");
-    std::vector<std::string> names;
-    for (const JobKey& key : job_keys()) {
-        names.push_back(key.name);
-        const std::string section = key.name.substr(0, key.name.find('.'));
-        if (std::find(names.begin(), names.end(), section) == names.end()) names.push_back(section);
-    }
-    const std::string nearest = nearest_word(name, names);
+    const std::string guess = likely_key(name);
     throw InputError(where, "unknown key " + in_quotes(name),
-                     nearest.empty() ? "see docs/generated/jobs.md for the keys" : "did you mean " + nearest + "?");
+                     guess.empty() ? "treefarm keys lists the keys" : "did you mean " + guess + "?");
 }
 
 std::string wanted_type_name(ValueKind kind) {

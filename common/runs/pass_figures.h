@@ -23,7 +23,7 @@ struct PassFigure {
 
 /// Figures of a pass, in the order of the columns. An empty field or null: unknown.
 inline constexpr PassFigure kPassFigures[] = {
-    {"pass", "number", kAll, "number of the pass, from 0"},
+    {"pass", "number", kAll, "number of the pass, from 1"},
     {"spp", "samples/pixel", kAll, "samples of this pass"},
     {"spp_done", "samples/pixel", kAll, "samples with this pass"},
     {"next_event", "0 or 1", kInTable, "paths sampled emitters directly"},

@@ -46,7 +46,7 @@ inline constexpr RunKeyRow kRunKeys[] = {
     {"crop.y", "pixels", kInSummary, "its upper edge"},
     {"crop.film_width", "pixels", kInSummary, "width of the film"},
     {"crop.film_height", "pixels", kInSummary, "height of the film"},
-    {"pass", "number", kInStatus, "pass in work, from 0"},
+    {"pass", "number", kInStatus, "pass in work, from 1"},
     {"passes", "list", kInBoth | kInCell, "summary.json, cell.json: the finished passes; status.json: their count"},
     {"spp_done", "samples/pixel", kInStatus, "samples of the finished passes"},
     {"spp", "samples/pixel", kInBoth, "summary.json: samples of the image; status.json: expected in all"},

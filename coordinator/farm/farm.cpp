@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/base/hash.h"
+#include "common/base/text/duration_text.h"
 #include "common/comm/rest.h"
 #include "common/config/aov_list.h"
 #include "common/config/job_reader.h"
@@ -209,17 +210,17 @@ void Farm::watch_for_silence() {
     const bool wait = may_come_back();
     if (wait && !alone_since_) {
         alone_since_ = now;
-        log_->warn("no worker answers: waiting {:.0f} s for one to come back", limits_.grace);
+        log_->warn("no worker answers: waiting {} for one to come back", limit_text(limits_.grace));
     }
     if (!wait || now - *alone_since_ > limits_.grace) throw RunError("no worker is left" + why_nobody());
 }
 
 /// Description of a unit, with the command that traces it alone.
 std::string Farm::blame(const WorkUnit& unit) const {
-    const std::string of_pass = " of pass " + std::to_string(unit.pass);
+    const std::string pass = std::to_string(unit.pass + 1), of_pass = " of pass " + pass;
     if (unit.kind != UnitKind::tile)
         return "work " + std::to_string(unit.first) + " to " + std::to_string(unit.first + unit.count) + of_pass;
-    std::string name = std::to_string(unit.pass);
+    std::string name = pass;
     for (const std::uint32_t number :
          {std::uint32_t{unit.x0}, std::uint32_t{unit.y0}, std::uint32_t{unit.x1}, std::uint32_t{unit.y1}, unit.chunk})
         name += "," + std::to_string(number);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/base/hash.h"
+#include "common/base/text/duration_text.h"
 #include "common/base/text/parse_text.h"
 #include "common/plan/effects/plan_text.h"
 #include "common/runs/run_files.h"
@@ -70,7 +71,7 @@ void RenderLog::tell_pass(const PassReport& pass, const CombinedImage& image, st
     const std::string name = pass_name(pass.plan.index, 0);
     for (const InvalidSample& sample : pass.stats.first_invalid)
         log_->warn("radiance ({}, {}, {}) counts as black; reproduce with: {} {},{},{},{}{}", sample.rgb[0],
-                   sample.rgb[1], sample.rgb[2], request_.origin.debug_command, sample.pass, sample.x, sample.y,
+                   sample.rgb[1], sample.rgb[2], request_.origin.debug_command, sample.pass + 1, sample.x, sample.y,
                    sample.sample, replay_options());
     if (pass.stats.invalid_samples > pass.stats.first_invalid.size())
         log_->warn("{} invalid samples in {} in all", pass.stats.invalid_samples, name);
@@ -125,8 +126,10 @@ void RenderLog::tell_result(const RenderResult& result, double elapsed_seconds) 
     if (last.error.rmse > 0 && std::isfinite(last.halving.seconds))
         log_->info("half this error ({:.3g} %) would take {}{} more, {:.0f} spp", 100 * last.halving.relative_error,
                    trust_words(last.halving.trust), rough_duration_text(last.halving.seconds), last.halving.spp);
-    if (const TailReport tails = tail_report(*result.image, result.passes); tails.stands_out)
-        log_->info("{}", tail_text(tails, request_.origin.debug_command, replay_options()));
+    if (const TailReport tails = tail_report(*result.image, result.passes); tails.stands_out) {
+        log_->info("{}", tail_text(tails));
+        log_->debug("{}", tail_command(tails, request_.origin.debug_command, replay_options()));
+    }
     const std::string& asked = request_.content.job.output.file;
     log_->info("{}", join_fields({fmt::format("{} spp", result.spp), duration_text(last.run_seconds),
                                   brief_error_text(last.error), "image " + hash_text(result.image_hash),
@@ -140,7 +143,7 @@ std::string RenderLog::budget_text(const NextPass& first) const {
     if (first.pass_count > 0) return fmt::format("{} spp in {} passes", first.spp_total, first.pass_count);
     const Job::Budget& budget = request_.content.job.budget;
     std::string text = budget.error > 0 ? fmt::format("until the error is {:.3g} %", 100 * budget.error) : "";
-    if (budget.seconds > 0) text += fmt::format("{}{} s", text.empty() ? "for " : ", at most ", budget.seconds);
+    if (budget.seconds > 0) text += (text.empty() ? "for " : ", at most ") + limit_text(budget.seconds);
     if (budget.max_spp != Job::Budget{}.max_spp) text += fmt::format(", at most {} spp", budget.max_spp);
     return text;
 }
@@ -161,7 +164,7 @@ std::string RenderLog::kept_text(const RenderResult& result, double part) const 
 std::string RenderLog::why_missed(const RenderResult& result) const {
     const Job::Budget& budget = request_.content.job.budget;
     if (result.spp >= budget.max_spp) return fmt::format("budget.max_spp = {} is reached", budget.max_spp);
-    if (budget.seconds > 0) return fmt::format("the {} s are over", budget.seconds);
+    if (budget.seconds > 0) return "the time of " + limit_text(budget.seconds) + " is over";
     return "the last pass was planned too short";
 }
 

@@ -31,7 +31,7 @@ std::vector<Figure> figures(const PassReport& r) {
     for (const auto& [worker, seconds] : r.seconds.worker)
         by_worker[std::to_string(worker)] = seconds;
     return {
-        {"pass", r.plan.index},
+        {"pass", r.plan.index + 1},
         {"spp", r.plan.spp},
         {"spp_done", r.spp_done},
         {"next_event", r.plan.next_event},

@@ -102,7 +102,7 @@ void add_tails(Json& summary, const TailReport& tails) {
     summary["tail_origin"] = tails.origin.empty() ? Json() : Json(tails.origin);
     summary["tail_worst"] = Json::array();
     for (const TailSample& sample : tails.worst.worst)
-        summary["tail_worst"].push_back({{"pass", sample.pass},
+        summary["tail_worst"].push_back({{"pass", sample.pass + 1},
                                          {"x", sample.x},
                                          {"y", sample.y},
                                          {"sample", sample.sample},
@@ -123,7 +123,7 @@ std::string status_json(const RunFacts& facts, const RenderProgress& progress, d
                         const PassReport* last_pass) {
     const double left = progress.fraction > 0 ? elapsed_seconds * (1 - progress.fraction) / progress.fraction : 0.0;
     Json status = {{"state", state_name(RunState::running)},
-                   {"pass", progress.pass},
+                   {"pass", progress.pass + 1},
                    {"passes", progress.pass_count},
                    {"spp_done", progress.spp_done},
                    {"spp", progress.spp_total},

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/files/atomic_file.h"
+#include "common/base/text/duration_text.h"
 #include "common/runs/run_files.h"
 #include "coordinator/farm/pulse.h"
 #include "coordinator/render/finished_render.h"
@@ -17,7 +18,6 @@
 #include "coordinator/run/last_files.h"
 #include "coordinator/shot/frame_record.h"
 #include "coordinator/shot/frames.h"
-#include "coordinator/words/pass_text.h"
 #include "coordinator/words/reading_notice.h"
 #include "coordinator/words/series_progress.h"
 

@@ -4,6 +4,7 @@
 #include "common/base/hash.h"
 #include "common/config/check_job.h"
 #include "common/config/job_reader.h"
+#include "common/runs/run_files.h"
 #include "common/scene/pack/scene_codec.h"
 #include "coordinator/render/read_request.h"
 
@@ -48,6 +49,12 @@ std::vector<Setting> cell_settings(const Study& study, const StudyCell& cell) {
     return settings;
 }
 
+std::string cell_words(const Study& study, const StudyCell& cell) {
+    const std::string budget = study.budgets.size() > 1 ? "." + study.budgets[cell.budget].value : "";
+    return study.scenes[cell.scene].name + "." + study.methods[cell.method].name + budget + "." +
+           std::to_string(cell.seed);
+}
+
 std::uint64_t request_key(const RenderRequest& request, const std::string& more) {
     Job job = request.content.job;
     job.output = {};
@@ -62,6 +69,20 @@ std::string folder_name(const std::string& words, std::uint64_t key) {
     for (char& c : name)
         if (plain.find(c) == std::string_view::npos) c = '_';
     return name + "-" + hash_text(key);
+}
+
+bool ReadyCell::done() const {
+    return std::filesystem::exists(folder / kCellFile);
+}
+
+ReadyCell ready_cell(const Study& study, const StudyCell& cell, const LoadedScene& loaded,
+                     const std::string& reference_key, const RenderOrigin& origin) {
+    ReadyCell ready;
+    ready.request = study_request(study, study.scenes[cell.scene], loaded, study.methods[cell.method].settings,
+                                  cell_settings(study, cell), origin);
+    ready.folder = std::filesystem::path(study.directory) / "cells" /
+                   folder_name(cell_words(study, cell), request_key(ready.request, reference_key));
+    return ready;
 }
 
 }  // namespace treefarm

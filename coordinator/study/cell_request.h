@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 #include "coordinator/input/load.h"
@@ -21,11 +22,25 @@ RenderRequest study_request(const Study& study, const StudyScene& scene, const L
 /// Settings of a cell besides its method: budget and seed.
 std::vector<Setting> cell_settings(const Study& study, const StudyCell& cell);
 
+/// Name of a cell: "scene.method.seed", with the budget before the seed if the study has several.
+std::string cell_words(const Study& study, const StudyCell& cell);
+
 /// Key of a request's result: a hash of job without its output, scene, program, and `more` (the reference that it is
 /// compared with). Equal keys mean equal figures, except for times.
 std::uint64_t request_key(const RenderRequest& request, const std::string& more);
 
 /// Folder name of `words`, readable for a person, and the key.
 std::string folder_name(const std::string& words, std::uint64_t key);
+
+/// A cell's request with its folder.
+struct ReadyCell {
+    RenderRequest request;
+    std::filesystem::path folder;
+
+    /// Whether the folder holds a finished cell.
+    bool done() const;
+};
+ReadyCell ready_cell(const Study& study, const StudyCell& cell, const LoadedScene& loaded,
+                     const std::string& reference_key, const RenderOrigin& origin);
 
 }  // namespace treefarm

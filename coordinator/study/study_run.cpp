@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/files/atomic_file.h"
+#include "common/base/text/duration_text.h"
 #include "common/base/text/parse_text.h"
 #include "common/image/exr.h"
 #include "common/runs/run_files.h"
@@ -17,7 +18,6 @@
 #include "coordinator/study/cell_request.h"
 #include "coordinator/study/reference.h"
 #include "coordinator/study/study_rules.h"
-#include "coordinator/words/pass_text.h"
 #include "coordinator/words/reading_notice.h"
 #include "coordinator/words/series_progress.h"
 
@@ -39,29 +39,6 @@ struct Interrupted {};
 /// Number with noun: "1 scene", "2 scenes".
 std::string counted(std::size_t number, const std::string& what) {
     return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
-}
-
-std::string cell_words(const Study& study, const StudyCell& cell) {
-    const std::string budget = study.budgets.size() > 1 ? "." + study.budgets[cell.budget].value : "";
-    return study.scenes[cell.scene].name + "." + study.methods[cell.method].name + budget + "." +
-           std::to_string(cell.seed);
-}
-
-/// A cell's request with its folder.
-struct ReadyCell {
-    RenderRequest request;
-    fs::path folder;
-    bool done() const { return fs::exists(folder / kCellFile); }
-};
-
-ReadyCell ready_cell(const Study& study, const StudyCell& cell, const LoadedScene& loaded,
-                     const std::string& reference_key, const RenderOrigin& origin) {
-    ReadyCell ready;
-    ready.request = study_request(study, study.scenes[cell.scene], loaded, study.methods[cell.method].settings,
-                                  cell_settings(study, cell), origin);
-    ready.folder = fs::path(study.directory) / "cells" /
-                   folder_name(cell_words(study, cell), request_key(ready.request, reference_key));
-    return ready;
 }
 
 class StudyRun {
@@ -257,28 +234,6 @@ class StudyRun {
 
 StudyOutcome run_study(const Study& study, const SeriesContext& context) {
     return StudyRun(study, context).run();
-}
-
-void list_cells(const Study& study, const RenderOrigin& origin, std::ostream& out) {
-    std::size_t done = 0, number = 0;
-    const std::vector<StudyCell> cells = study_cells(study);
-    for (std::size_t scene = 0; scene < study.scenes.size(); ++scene) {
-        const LoadedScene loaded = load_study_scene(study, study.scenes[scene]);
-        Reference reference;
-        RenderRequest request;
-        const std::string key = reference_key(study, study.scenes[scene], loaded, reference, request, origin);
-        out << "reference of " << study.scenes[scene].name << ": " << reference.file
-            << (!study.scenes[scene].reference.empty() || fs::exists(reference.mark()) ? " (there)\n"
-                                                                                       : " (to be rendered)\n");
-        for (const StudyCell& cell : cells) {
-            if (cell.scene != scene) continue;
-            const ReadyCell ready = ready_cell(study, cell, loaded, key, origin);
-            done += ready.done();
-            out << "cell " << ++number << " of " << cells.size() << ": " << cell_words(study, cell)
-                << (ready.done() ? " (done)\n" : "\n");
-        }
-    }
-    out << done << " of " << cells.size() << " cells are done\n";
 }
 
 }  // namespace treefarm

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <ostream>
-
 #include "coordinator/render/render_series.h"
 #include "coordinator/study/study.h"
 
@@ -19,8 +17,5 @@ struct StudyOutcome {
 ///   cells/NAME/                   run directory of a cell, with cell.json: written last, as a mark of completeness
 /// A folder's name contains a hash of all that decides its content, so that a changed study reuses the valid cells.
 StudyOutcome run_study(const Study& study, const SeriesContext& context);
-
-/// Prints the cells in their order of rendering, and which of them exist.
-void list_cells(const Study& study, const RenderOrigin& origin, std::ostream& out);
 
 }  // namespace treefarm

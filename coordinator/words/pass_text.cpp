@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/base/status.h"
+#include "common/base/text/duration_text.h"
 
 namespace treefarm {
 
@@ -17,12 +18,12 @@ bool is_known(const ErrorForecast& forecast) {
            std::isfinite(forecast.seconds);
 }
 
-/// "half of it in about 1:10"; empty if unknown, or if nothing is left to do.
+/// "half in about 1:10"; empty if unknown, or if nothing is left to do.
 std::string outlook_text(const PassReport& r) {
     const bool asked = r.target.relative_error > 0;
     const ErrorForecast& forecast = asked ? r.target : r.halving;
     if (!is_known(forecast)) return "";
-    const std::string what = asked ? fmt::format("{:.3g} %", 100 * forecast.relative_error) : "half of it";
+    const std::string what = asked ? fmt::format("{:.3g} %", 100 * forecast.relative_error) : "half";
     return what + " in " + trust_words(forecast.trust) + rough_duration_text(forecast.seconds);
 }
 
@@ -83,23 +84,6 @@ std::string forecast_text(const ErrorForecast& forecast) {
             break;
     }
     return time;
-}
-
-std::string duration_text(double seconds) {
-    if (seconds < 0.95) return fmt::format("{:.2g} s", seconds);
-    if (seconds < 59.95) return fmt::format("{:.1f} s", seconds);
-    const double hours = seconds / 3600;
-    return hours < 10 || hours >= 48 ? rough_duration_text(seconds) : fmt::format("{:.1f} h", hours);
-}
-
-std::string rough_duration_text(double seconds) {
-    if (!(seconds < 1e9)) return "a very long time";
-    const long whole = std::max(1L, std::lround(seconds)), minutes = whole / 60, hours = minutes / 60;
-    if (minutes == 0) return fmt::format("{} s", whole);
-    if (hours == 0) return fmt::format("{}:{:02}", minutes, whole % 60);
-    if (hours < 10) return fmt::format("{}:{:02}:{:02}", hours, minutes % 60, whole % 60);
-    if (hours < 48) return fmt::format("{} h", (minutes + 30) / 60);
-    return fmt::format("{} days", (hours + 12) / 24);
 }
 
 std::string brief_error_text(const ErrorEstimate& error) {

@@ -7,7 +7,7 @@
 
 namespace treefarm {
 
-/// Short line on a pass for any user: "pass 6/7   63 spp   7.1 s   error 42.8 %   half of it in about 1:10". With a
+/// Short line on a pass for any user: "pass 6/7   63 spp   7.1 s   error 42.8 %   half in about 1:10". With a
 /// target error the time is until that. Unknown figures are omitted. `pass_count`: 0 if unknown.
 std::string pass_line(const PassReport& report, std::size_t pass_count);
 
@@ -16,12 +16,6 @@ std::string pass_summary(const PassReport& report, std::size_t pass_count);
 
 /// Name of a pass: "pass 6/7", or "pass 6".
 std::string pass_name(std::uint32_t index, std::size_t pass_count);
-
-/// Duration in words: "0.25 s", "7.1 s", "1:10" (minutes), "2:30:00" (hours), "12.5 h", "12 days".
-std::string duration_text(double seconds);
-
-/// Forecast duration, as duration_text() but in whole seconds, at least one: forecasts are no more accurate.
-std::string rough_duration_text(double seconds);
 
 /// Trust of a forecast: "about ", "at most ", "roughly ", or empty if unknown.
 const char* trust_words(Trust trust);

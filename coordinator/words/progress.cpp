@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/base/text/duration_text.h"
 #include "coordinator/words/pass_text.h"
 
 namespace treefarm {
@@ -36,7 +37,7 @@ void say_how_far(const RenderProgress& p, const Job::Budget& budget, const TimeL
     }
     if (budget.seconds > 0) {
         words.fraction = std::min(1.0, p.run_seconds / budget.seconds);
-        words.how_far = percent(words.fraction) + fmt::format(" of {} s", budget.seconds);
+        words.how_far = percent(words.fraction) + " of " + limit_text(budget.seconds);
     } else if (p.spp_total > 0) {
         words.fraction = p.fraction;
         words.how_far = percent(p.fraction) + fmt::format(" of {} spp", p.spp_total);
@@ -59,7 +60,7 @@ RenderWords render_words(const RenderProgress& p, const Job::Budget& budget, con
 RenderWords preparing_words(double seconds) {
     RenderWords words;
     words.how_far = "preparing the scene";
-    words.since_begin = fmt::format("{:.0f} s so far", seconds);
+    words.since_begin = rough_duration_text(seconds) + " so far";
     return words;
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/words/reading_notice.h"
 
-#include <spdlog/fmt/fmt.h>
-
 #include <chrono>
 #include <utility>
+
+#include "common/base/text/duration_text.h"
 
 namespace treefarm {
 
@@ -16,7 +16,7 @@ constexpr std::chrono::duration<double> kLiveDelay(1.0), kLineDelay(10.0), kTick
 
 Status reading_status(const std::string& name, double seconds) {
     Status status;
-    status.fields = {"reading " + name, fmt::format("{:.0f} s so far", seconds)};
+    status.fields = {"reading " + name, rough_duration_text(seconds) + " so far"};
     status.line = join_fields(status.fields);
     return status;
 }

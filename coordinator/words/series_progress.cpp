@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "coordinator/words/pass_text.h"
+#include "common/base/text/duration_text.h"
 
 namespace treefarm {
 

@@ -29,6 +29,11 @@ TailSamples samples_of_image(const CombinedImage& image, std::span<const PassRep
     return all;
 }
 
+/// Whether the camera sees the light directly: a lamp's edge, or the environment.
+bool is_seen_directly(const LightOrigin& origin) {
+    return origin.vertices <= 1 && (origin.found == LightFound::met || origin.found == LightFound::sky_met);
+}
+
 std::string main_origin(const TailSamples& samples) {
     std::map<std::string, double> noise;
     for (const TailSample& sample : samples.worst)
@@ -44,19 +49,27 @@ TailReport tail_report(const CombinedImage& image, std::span<const PassReport> p
     TailReport report;
     if (image.longest_pass < 2) return report;
     report.share = noise_share(image.variance, kNoisePart);
-    report.worst = samples_of_image(image, passes);
+    double seen = 0, others = 0;
+    for (const TailSample& sample : samples_of_image(image, passes).worst) {
+        const bool is_seen = is_seen_directly(sample.origin);
+        (is_seen ? seen : others) += static_cast<double>(sample.noise);
+        if (!is_seen) report.worst.add(sample);
+    }
     report.origin = main_origin(report.worst);
-    report.stands_out = report.share && *report.share < kToldShare && !report.worst.worst.empty() &&
-                        image.variance.size() >= kLeastPixels;
+    report.stands_out =
+        report.share && *report.share < kToldShare && others > seen && image.variance.size() >= kLeastPixels;
     return report;
 }
 
-std::string tail_text(const TailReport& tails, const std::string& debug_command, const std::string& debug_options) {
+std::string tail_text(const TailReport& tails) {
+    return fmt::format("fireflies: {:.0f} % of the noise is in {:.2g} % of the pixels ({})", 100 * kNoisePart,
+                       100 * tails.share.value_or(0), tails.origin);
+}
+
+std::string tail_command(const TailReport& tails, const std::string& debug_command, const std::string& debug_options) {
     const TailSample& worst = tails.worst.worst.front();
-    return fmt::format(
-        "{:.2g} % of the pixels carry {:.0f} % of the noise: {}; worst: pixel ({}, {}); see it: {} {},{},{},{}{}",
-        100 * tails.share.value_or(0), 100 * kNoisePart, tails.origin, worst.x, worst.y, debug_command, worst.pass,
-        worst.x, worst.y, worst.sample, debug_options);
+    return fmt::format("the worst firefly, pixel ({}, {}), vertex by vertex: {} {},{},{},{}{}", worst.x, worst.y,
+                       debug_command, worst.pass + 1, worst.x, worst.y, worst.sample, debug_options);
 }
 
 }  // namespace treefarm

@@ -25,6 +25,7 @@ const half = (x, w) => context.getImageData(x, 0, w, canvas.height).data.reduce(
 const middle = canvas.width / 2 - 4;
 return [half(0, middle), half(middle + 8, middle)];
 """
+OPEN_ALL = "document.querySelectorAll('details').forEach(part => { part.open = true; });"
 SET = """
 const input = document.querySelector('.viewer ' + arguments[0]);
 if (input.type === 'checkbox') input.checked = arguments[1]; else input.value = arguments[1];
@@ -89,6 +90,7 @@ def fits(browser, page):
         browser.call("POST", "/goog/cdp/execute", {"cmd": "Emulation.setDeviceMetricsOverride", "params": {
             "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}})
         browser.call("POST", "/url", {"url": "file://" + page})
+        browser.run(OPEN_ALL)
         check(browser.run("return document.documentElement.scrollWidth <= innerWidth"), f"wider than {width} px")
         letters = browser.run("return Math.min(...[...document.querySelectorAll('svg text')]"
                               ".map(t => t.getBoundingClientRect().height).filter(h => h > 0))")
@@ -100,9 +102,18 @@ def fits(browser, page):
     browser.call("POST", "/goog/cdp/execute", {"cmd": "Emulation.clearDeviceMetricsOverride", "params": {}})
 
 
+def folds(browser, page):
+    """Until a reader opens more, a scene has one chart and one table of its error."""
+    browser.call("POST", "/url", {"url": "file://" + page})
+    shown = browser.run("return ['svg', 'table'].map(kind => [...document.querySelectorAll('h2 ~ * ' + kind)]"
+                        ".filter(part => part.checkVisibility({contentVisibilityAuto: true})).length)")
+    check(shown == [1, 1], f"visible charts and tables of the scene: {shown}")
+
+
 def switches(browser, page):
     """One of the two clocks is shown, charts and tables alike, and the other on demand."""
     browser.call("POST", "/url", {"url": "file://" + page})
+    browser.run(OPEN_ALL)
     shown = ("return ['seconds', 'core_seconds'].map(key => [...document.querySelectorAll('.of-' + key)]"
              ".filter(d => d.clientHeight > 0).length)")
     for key, at in (("seconds", 0), ("core_seconds", 1)):
@@ -115,6 +126,7 @@ def switches(browser, page):
 
 def look_at(browser, page, screenshot):
     fits(browser, page)
+    folds(browser, page)
     switches(browser, page)
     browser.call("POST", "/url", {"url": "file://" + page})
     check(browser.run("return document.querySelectorAll('svg').length") >= 5, "charts are missing")

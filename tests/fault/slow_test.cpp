@@ -74,7 +74,7 @@ TEST_F(PoisonUnits, AUnitThatKillsThreeWorkersEndsTheRenderByItsName) {
     make_mortal(5);
     const std::string why = death({.gather = 20, .lost = 0.3, .dismiss = 0.5, .grace = 1});
     EXPECT_NE(why.find("3 workers were lost over the pixels from 0,0 to below "), std::string::npos) << why;
-    EXPECT_NE(why.find("of pass 1; to trace them alone: treefarm render SCENE --debug-sample 1,0,0,"),
+    EXPECT_NE(why.find("of pass 2; to trace them alone: treefarm render SCENE --debug-sample 2,0,0,"),
               std::string::npos)
         << why;
 }

@@ -149,12 +149,12 @@ TEST(Ending, ADebugSampleTellsItsPath) {
     const auto folder = fresh_folder("run");
     const Ending ending =
         Program(std::vector<std::string>{TREEFARM_PROGRAM, "render", own_scene("cornell-box.xml"), "-D", "size=32",
-                                         "--spp", "28", "--debug-sample", "2,16,16,3"})
+                                         "--spp", "28", "--debug-sample", "3,16,16,3"})
             .wait(kSoon);
     EXPECT_EQ(ending.code, 0) << ending.output;
-    EXPECT_NE(ending.output.find("pass 2 pixel (16, 16) sample 3"), std::string::npos) << ending.output;
+    EXPECT_NE(ending.output.find("pass 3 pixel (16, 16) sample 3"), std::string::npos) << ending.output;
     const Ending wrong = Program(std::vector<std::string>{TREEFARM_PROGRAM, "render", own_scene("cornell-box.xml"),
-                                                          "-D", "size=32", "--debug-sample", "0,32,0,0"})
+                                                          "-D", "size=32", "--debug-sample", "1,32,0,0"})
                              .wait(kSoon);
     EXPECT_EQ(wrong.code, 2) << wrong.output;
 }
@@ -167,13 +167,15 @@ TEST(Ending, AFireflyIsNamedAndCanBeSeen) {
                                          "height=64", "--spp", "63", "--run-dir", folder.string()})
             .wait(kSoon);
     ASSERT_EQ(ending.code, 0) << ending.output;
-    const std::string mark = "; see it: ";
-    const std::size_t at = ending.output.find(mark);
-    ASSERT_NE(at, std::string::npos) << ending.output;
+    EXPECT_NE(ending.output.find("fireflies: 40 % of the noise is in "), std::string::npos) << ending.output;
+    EXPECT_EQ(ending.output.find("--debug-sample"), std::string::npos) << "the command is in log.txt alone";
+    std::ifstream file(folder / "log.txt");
+    const std::string log(std::istreambuf_iterator<char>(file), {}), mark = ", vertex by vertex: ";
+    const std::size_t at = log.find(mark);
+    ASSERT_NE(at, std::string::npos) << log;
     const std::size_t begin = at + mark.size();
     const Ending seen =
-        Program(std::vector<std::string>{"sh", "-c", ending.output.substr(begin, ending.output.find('\n', at) - begin)})
-            .wait(kSoon);
+        Program(std::vector<std::string>{"sh", "-c", log.substr(begin, log.find('\n', at) - begin)}).wait(kSoon);
     EXPECT_EQ(seen.code, 0) << seen.output;
     const nlohmann::json worst = nlohmann::json::parse(std::ifstream(folder / "summary.json"))["tail_worst"][0];
     std::ostringstream location;
@@ -190,11 +192,12 @@ TEST(Ending, ADebugTileIsTracedAlone) {
                                                 "size=32", "--spp", "28", "--debug-sample", tile})
             .wait(kSoon);
     };
-    const Ending ending = traced("2,8,8,24,16,0");
+    const Ending ending = traced("3,8,8,24,16,0");
     EXPECT_EQ(ending.code, 0) << ending.output;
-    EXPECT_NE(ending.output.find("pass 2 pixels (8, 8) to below (24, 16): 512 paths"), std::string::npos)
+    EXPECT_NE(ending.output.find("pass 3 pixels (8, 8) to below (24, 16): 512 paths"), std::string::npos)
         << ending.output;
-    for (const char* wrong : {"2,8,8,8,16,0", "2,8,8,33,16,0", "9,8,8,24,16,0", "2,8,8,24,16,7", "2,8,8,24,16,x"})
+    for (const char* wrong :
+         {"3,8,8,8,16,0", "3,8,8,33,16,0", "9,8,8,24,16,0", "3,8,8,24,16,7", "3,8,8,24,16,x", "0,8,8,24,16,0"})
         EXPECT_EQ(traced(wrong).code, 2) << wrong;
 }
 

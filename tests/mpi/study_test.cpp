@@ -93,10 +93,11 @@ TEST_P(StudyTest, KilledHalfWayGoesOn) {
     expect_same_numbers(after, whole_cells(whole));
     EXPECT_EQ(read_json(broken / "study.json")["cells"], read_json(whole / "study.json")["cells"]);
 
-    const Ending dry = Program(study(file, whole) + std::vector<std::string>{"--dry-run"}).wait(kPatience);
+    const Ending dry =
+        Program(study(file, whole) + std::vector<std::string>{"--dry-run", "--no-probe"}).wait(kPatience);
     EXPECT_NE(dry.output.find("24 of 24 cells are done"), std::string::npos) << dry.output;
 
-    std::vector<std::string> other_build = study(file, whole) + std::vector<std::string>{"--dry-run"};
+    std::vector<std::string> other_build = study(file, whole) + std::vector<std::string>{"--dry-run", "--no-probe"};
     other_build[0] = folder / "treefarm";
     fs::copy_file(TREEFARM_PROGRAM, other_build[0]);
     std::ofstream(other_build[0], std::ios::binary | std::ios::app) << ' ';

@@ -76,7 +76,7 @@ def runnable(name, rest, work):
         arguments = [f"{work}/joined/join" if word == "join" else f"{work}/joined" if word == words["RUN_DIR"] else word
                      for word in arguments]
     if name == "study":
-        arguments += ["--dry-run", "--dir", f"{work}/study"]
+        arguments += ["--dry-run", "--no-probe", "--dir", f"{work}/study"]
     return arguments
 
 

@@ -73,7 +73,7 @@ std::string describe_sample(const TraceScene& scene, const Resolved& job, const 
     const Rgb radiance = observe_sample(scene, job, pass, guide, x, y, sample, events);
     std::ostringstream head;
     head.precision(9);
-    head << "pass " << pass.index << " pixel (" << x << ", " << y << ") sample " << sample << " (path sample "
+    head << "pass " << pass.index + 1 << " pixel (" << x << ", " << y << ") sample " << sample << " (path sample "
          << pass.first_sample + sample << ") seed " << job.sampler.seed << ": radiance " << radiance << '\n';
     return head.str() + events.text();
 }

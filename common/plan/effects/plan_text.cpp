@@ -60,6 +60,12 @@ std::string never_line(const EffectPlan& plan) {
     return text;
 }
 
+/// "warning: " unless the text begins so already.
+std::string warning_line(const std::string& text) {
+    const std::string word = "warning: ";
+    return (text.starts_with(word) ? "" : word) + text + "\n";
+}
+
 std::string memory_section(const char* whose, const std::vector<MemoryItem>& items, std::uint64_t total) {
     std::vector<Row> rows;
     rows.reserve(items.size());
@@ -107,33 +113,34 @@ std::string approximation_text(const Approximation& approximation) {
            (location.empty() ? "" : " (" + location + ")") + ": " + approximation.text;
 }
 
-std::string plan_text(const EffectPlan& plan, const std::string& scene) {
+std::string plan_brief(const EffectPlan& plan, const std::string& scene) {
     std::string text = "plan of " + scene + ": " + std::to_string(plan.width) + " x " + std::to_string(plan.height) +
                        " pixels, " + (plan.passes_guessed ? "planned as for " : "") + std::to_string(plan.spp) +
                        " spp in " + std::to_string(plan.pass_count) + (plan.pass_count == 1 ? " pass, " : " passes, ") +
                        std::to_string(plan.triangles) + " triangles\n";
+    if (!plan.advice.empty()) text += plan.advice + "\n";
+    text += "memory expected: each worker " + bytes_text(plan.memory.worker_bytes()) + ", coordinator " +
+            bytes_text(plan.memory.coordinator_bytes()) + "\n";
+    for (const std::string& missed : plan.misses)
+        text += "not found: " + missed + "\n";
+    for (const Approximation& approximation : plan.approximations)
+        text += "approximation: " + approximation_text(approximation) + "\n";
+    for (const std::string& warning : plan.warnings)
+        text += warning_line(warning);
+    return text;
+}
+
+std::string plan_text(const EffectPlan& plan, const std::string& scene) {
+    std::string text = plan_brief(plan, scene);
+    text += memory_section("each worker", plan.memory.worker, plan.memory.worker_bytes());
+    text += memory_section("coordinator", plan.memory.coordinator, plan.memory.coordinator_bytes());
     text += "\neffects on\n" + effect_section(plan, scene, true);
     text += "\neffects off\n" + effect_section(plan, scene, false);
     text += "\nnever simulated\n  " + never_line(plan) + "\n";
-    if (!plan.approximations.empty()) text += "\napproximations\n";
-    for (const Approximation& approximation : plan.approximations)
-        text += "  " + approximation_text(approximation) + "\n";
     std::vector<Row> kernels;
     for (const KernelUse& use : plan.kernels)
         kernels.push_back({use.kernel.name(), passes_text(use.passes)});
-    if (kernels.empty())
-        text += "\nestimator: " + plan.job.integrator.type + "\n";
-    else
-        text += "\nkernels, of " + std::to_string(kKernelCount) + " in the program\n" + aligned(kernels);
-    if (!plan.advice.empty()) text += "\nestimator that suits the scene\n  " + plan.advice + "\n";
-    if (!plan.misses.empty()) text += "\nlight that is not found\n";
-    for (const std::string& missed : plan.misses)
-        text += "  " + missed + "\n";
-    text += memory_section("each worker", plan.memory.worker, plan.memory.worker_bytes());
-    text += memory_section("coordinator", plan.memory.coordinator, plan.memory.coordinator_bytes());
-    if (!plan.warnings.empty()) text += "\nwarnings\n";
-    for (const std::string& warning : plan.warnings)
-        text += "  " + warning + "\n";
+    text += kernels.empty() ? "\nestimator: " + plan.job.integrator.type + "\n" : "\nkernels\n" + aligned(kernels);
     return text;
 }
 

@@ -7,8 +7,12 @@
 
 namespace treefarm {
 
-/// Plan for people: effects that are on, off (with reasons) and switched off, kernels, memory. `scene`: name of the
-/// scene file. Ends with a line end.
+/// Plan in a few lines: size and samples, advice, memory, what is not found, approximations and warnings. Ends with a
+/// line end.
+std::string plan_brief(const EffectPlan& plan, const std::string& scene);
+
+/// plan_brief(), and the lists: effects that are on, off (with reasons), memory by use, and kernels. `scene`: name of
+/// the scene file. Ends with a line end.
 std::string plan_text(const EffectPlan& plan, const std::string& scene);
 
 /// Plan as JSON for programs (docs/generated/effects.md, "the JSON form"). Ends with a line end.

@@ -12,35 +12,31 @@ namespace {
 // that was better, except for water (bench/log/bidirectional.md, "when should light subpaths be given up").
 constexpr double kMostlyHidden = 0.5, kOftenBehindGlass = 0.25, kMostlyFromInfinity = 0.5;
 
-constexpr const char* kPrice = "; a sample takes two to six times that of path";
-constexpr const char* kWhilePays = ", and bidirectional.light_subpaths ends that where it does not pay";
-
 std::string percent(double share) {
     return std::to_string(std::lround(100 * share)) + " %";
 }
 
 }  // namespace
 
-std::string estimator_advice(const Scene& scene, const Resolved& job) {
-    const std::string both = "bidirectional: ";
+EstimatorAdvice estimator_advice(const Scene& scene, const Resolved& job) {
     if (job.scene_facts.lights_alone_find)
-        return both +
-               "emitters without extent shine on mirrors, smooth glass or coats, and only paths from emitters find "
-               "what "
-               "these throw onto other surfaces" +
-               kPrice;
+        return {
+            "bidirectional",
+            "emitters without extent shine on mirrors, smooth glass or coats, and only paths from emitters find what "
+            "these throw onto other surfaces"};
     const LightReach reach = light_reach(scene);
-    if (!reach.known) return "path: nothing is known that speaks for another";
+    if (!reach.known) return {"path", "nothing is known that speaks for another"};
     if (reach.infinity > kMostlyFromInfinity)
-        return "path: " + percent(reach.infinity) +
-               " of the light comes from infinity, where paths from emitters would mostly miss what is seen";
+        return {"path",
+                percent(reach.infinity) +
+                    " of the light comes from infinity, where paths from emitters would mostly miss what is seen"};
     if (reach.glass > kOftenBehindGlass)
-        return both + "smooth glass lies before " + percent(reach.glass) +
-               " of the lamps' light, which next event cannot see through" + kPrice + kWhilePays;
+        return {"bidirectional", "smooth glass lies before " + percent(reach.glass) +
+                                     " of the lamps' light, which next event cannot see through"};
     if (reach.blocked > kMostlyHidden)
-        return both + "surfaces lie before " + percent(reach.blocked) +
-               " of the lamps' light, which comes by way of others that paths from lamps find" + kPrice + kWhilePays;
-    return "path: next event sees " + percent(reach.free) + " of the lamps' light";
+        return {"bidirectional", "surfaces lie before " + percent(reach.blocked) +
+                                     " of the lamps' light, which arrives by way of others"};
+    return {"path", "next event sees " + percent(reach.free) + " of the lamps' light"};
 }
 
 }  // namespace treefarm

@@ -7,8 +7,14 @@
 
 namespace treefarm {
 
-/// Line of text: the estimator that suits a scene, the reason, and the cost. Empty for estimators that show something
-/// other than light. Only a recommendation, since the gain is known only after sampling. Pure.
-std::string estimator_advice(const Scene& scene, const Resolved& job);
+/// An estimator that may suit a scene.
+struct EstimatorAdvice {
+    std::string type;    ///< of integrator.type
+    std::string reason;  ///< in words
+};
+
+/// Estimator to be tried for a scene, by rays between lamps and what is seen. Only a guess: the gain is known after
+/// sampling. Pure.
+EstimatorAdvice estimator_advice(const Scene& scene, const Resolved& job);
 
 }  // namespace treefarm

@@ -22,13 +22,31 @@ std::string box() {
 TEST(PlanCommand, TellsWhatASceneAndAJobCallFor) {
     const test::Ended scene = plan(box());
     EXPECT_EQ(scene.code, 0);
-    EXPECT_NE(scene.output.find("effects on"), std::string::npos);
-    EXPECT_NE(scene.output.find("kernels"), std::string::npos);
+    EXPECT_NE(scene.output.find("\nmemory expected: each worker "), std::string::npos) << scene.output;
+    EXPECT_LT(std::count(scene.output.begin(), scene.output.end(), '\n'), 8) << "lists are -v's: " << scene.output;
+    const test::Ended lists = plan(box() + " -v");
+    EXPECT_NE(lists.output.find("\neffects on\n"), std::string::npos);
+    EXPECT_NE(lists.output.find("\nkernels\n"), std::string::npos);
+    EXPECT_EQ(lists.output.find("in the program"), std::string::npos);
     const test::Ended job = plan(std::string(TREEFARM_SOURCE_DIR) + "/configs/jobs/door-ajar.toml --json");
     EXPECT_EQ(job.code, 0);
     const nlohmann::json json = nlohmann::json::parse(job.output);
     EXPECT_EQ(json["spp"], 508);
     EXPECT_EQ(json["effects"][0]["name"], "next_event");
+}
+
+TEST(PlanCommand, RecommendsNothingThatItHasNotMeasured) {
+    const std::string text = plan(test::own_scene("door-ajar.xml")).output;
+    EXPECT_NE(text.find("path and bidirectional can be compared by a probe ("), std::string::npos) << text;
+    EXPECT_EQ(text.find("integrator.type="), std::string::npos) << text;
+    EXPECT_EQ(plan(box()).output.find("bidirectional"), std::string::npos);
+}
+
+TEST(Program, HelpIsACommandToo) {
+    EXPECT_EQ(test::run_treefarm("help").output, test::run_treefarm("--help").output);
+    EXPECT_EQ(test::run_treefarm("help plan").output, test::run_treefarm("plan --help").output);
+    EXPECT_EQ(test::run_treefarm("help").code, 0);
+    EXPECT_EQ(test::run_treefarm("help nothing").code, 2);
 }
 
 TEST(Program, NamesTheNearestCommand) {

@@ -83,7 +83,39 @@ TEST(PlanProbe, TextSaysItInItsFirstLine) {
     EXPECT_EQ(ended.code, 0);
     EXPECT_TRUE(ended.output.starts_with("treefarm: probing for 0.05 s\n5 % error: about ")) << ended.output;
     EXPECT_NE(ended.output.find(" on this machine (1 thread)\n"), std::string::npos) << ended.output;
-    EXPECT_NE(ended.output.find("effects on"), std::string::npos);
+    EXPECT_LT(ended.output.find("5 % error"), ended.output.find("memory expected: "));
+    EXPECT_EQ(ended.output.find("effects on"), std::string::npos);
+}
+
+/// Other estimators are recommended by a figure alone.
+TEST(PlanProbe, ComparesTheEstimatorThatMaySuitTheScene) {
+    const test::Ended ended = test::run_treefarm("plan " + test::own_scene("door-ajar.xml") +
+                                                 " --set image.width=32 --set image.height=24 --threads 1 --error 20% "
+                                                 "--probe 0.05");
+    EXPECT_EQ(ended.code, 0) << ended.output;
+    EXPECT_NE(ended.output.find("probing bidirectional for "), std::string::npos) << ended.output;
+    EXPECT_NE(ended.output.find("] times as fast as path to equal error"), std::string::npos) << ended.output;
+}
+
+TEST(PlanProbe, FramesAreProbedAtBothEndsAndInTheMiddle) {
+    const json expected = expected_of(kBox + " --frames 1-9 --error 10% --probe 0.05");
+    EXPECT_EQ(expected["frames"], 9);
+    ASSERT_EQ(expected["probed"].size(), 3u);
+    double probed[3] = {}, low = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(expected["probed"][k]["frame"], 1 + 4 * k);
+        probed[k] = expected["probed"][k]["seconds"]["value"];
+        low += expected["probed"][k]["seconds"]["low"].get<double>();
+    }
+    // Trapezia of four steps each, with both ends.
+    EXPECT_NEAR(expected["seconds"]["value"].get<double>(), 2.5 * probed[0] + 4 * probed[1] + 2.5 * probed[2], 1e-9);
+    EXPECT_LT(expected["seconds"]["low"].get<double>(), expected["seconds"]["value"].get<double>());
+    EXPECT_GT(expected["seconds"]["low"].get<double>(), low);
+    EXPECT_NEAR(expected_of(kBox + " --frames 7 --seconds 100 --probe 0.05")["seconds"]["value"].get<double>(), 100,
+                1e-9);
+    EXPECT_EQ(expected_of(kBox + " --frames 1,2 --seconds 1h --probe 0.05")["seconds"]["low"], 7200);
+    EXPECT_EQ(test::run_treefarm("plan " + kBox + " --frames 3-1").code, 2);
+    EXPECT_EQ(test::run_treefarm("plan " + kBox + " --frames 1-3 --no-probe").code, 2);
 }
 
 /// Larger films are probed on smaller ones.

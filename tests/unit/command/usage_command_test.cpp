@@ -201,6 +201,34 @@ TEST_F(WrongFiles, FilesOfSettingsCheckNumbersToo) {
             {"study.toml:1:", "which is not allowed; give an integer from "});
 }
 
+TEST(Usage, KeysAreGuessedByTheirLastPart) {
+    const std::string plan = "plan " + box_scene();
+    expect_refusal(plan + " --set spp=4", {"unknown key \"spp\"; did you mean budget.spp?"});
+    expect_refusal(plan + " --set seed=4", {"did you mean sampler.seed?"});
+    expect_refusal(plan + " --set image.spp=4", {"did you mean budget.spp?"});
+    expect_refusal(plan + " --set sed=4", {"did you mean sampler.seed?"});
+    expect_refusal(plan + " --set type=path", {"guiding.type", " or ", "integrator.type"});
+    expect_refusal(plan + " --set qqqqqqqqqqqqqqqqqqqqqqqq=4", {"treefarm keys lists the keys"});
+    expect_refusal("render " + box_scene() + " --integrator path",
+                   {"--integrator is no option of render; write --set integrator.type=NAME; treefarm keys"});
+    expect_refusal("render " + box_scene() + " --sampler x", {"it is a table of keys: treefarm keys sampler."});
+}
+
+TEST(Study, ADryRunTellsTheTimeOfCellsAndReferences) {
+    const std::string study = test::fresh_test_folder() / "study.toml";
+    test::write_file(study, "seeds = 3\nwarmup = 1\nbudget.seconds = 20\n[scene.a]\nfile = \"" + box_scene() +
+                                "\"\nimage.width = 16\nimage.height = 16\n[method.plain]\nguiding.type = \"none\"\n"
+                                "[method.guided]\n[reference]\nsampler.seed = 9\nbudget.spp = 4000\n");
+    const test::Ended ended = test::run_treefarm("study --dry-run --probe 0.05 --threads 2 " + study);
+    EXPECT_EQ(ended.code, 0);
+    // Two methods, three seeds, a warm-up: 7 x 20 s x 2 threads.
+    EXPECT_NE(ended.output.find("about 4:40 of a core for the cells, "), std::string::npos) << ended.output;
+    EXPECT_NE(ended.output.find("] for the references; this machine has 2 threads"), std::string::npos) << ended.output;
+    const test::Ended without = test::run_treefarm("study --dry-run --no-probe --threads 2 " + study);
+    EXPECT_NE(without.output.find("about 4:40 of a core for the cells; 1 render not counted"), std::string::npos)
+        << without.output;
+}
+
 TEST(Keys, AreListedWithDefaultAndMeaning) {
     const test::Ended all = test::run_treefarm("keys");
     EXPECT_EQ(all.code, 0);

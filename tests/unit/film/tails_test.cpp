@@ -252,10 +252,23 @@ TEST(TailReport, NamesWhatMostNoiseComesFrom) {
     ASSERT_EQ(report.worst.worst.size(), 2u);
     EXPECT_EQ(report.worst.worst[0].noise, 2.0f * 0.5625f) << "in the image";
     EXPECT_EQ(report.worst.worst[1].noise, 8.0f * 0.0625f);
-    EXPECT_EQ(
-        tail_text(report, "treefarm render x.xml --debug-sample", " --run-dir r"),
-        "0.02 % of the pixels carry 40 % of the noise: light through rough glass, met by chance; worst: pixel (120, "
-        "44); see it: treefarm render x.xml --debug-sample 2,120,44,61 --run-dir r");
+    EXPECT_EQ(tail_text(report),
+              "fireflies: 40 % of the noise is in 0.02 % of the pixels (light through rough glass, met by chance)");
+    EXPECT_EQ(tail_command(report, "treefarm render x.xml --debug-sample", " --run-dir r"),
+              "the worst firefly, pixel (120, 44), vertex by vertex: treefarm render x.xml --debug-sample 3,120,44,61 "
+              "--run-dir r");
+}
+
+TEST(TailReport, WhatTheCameraSeesDirectlyIsNoFirefly) {
+    Tailed lamp(10000);
+    lamp.passes[2].stats.tails.add({5.0f, 2, 132, 25, 7, {LightFound::met, PathClass::diffuse, 1}});
+    const TailReport mostly_lamp = tail_report(lamp.image, lamp.passes);
+    EXPECT_FALSE(mostly_lamp.stands_out) << "most noise is that of a lamp's edge";
+    EXPECT_EQ(mostly_lamp.worst.worst.size(), 2u);
+    EXPECT_EQ(mostly_lamp.origin, "light through rough glass, met by chance");
+    Tailed sky(10000);
+    sky.passes[2].stats.tails.add({0.5f, 2, 132, 25, 7, {LightFound::sky_met, PathClass::diffuse, 1}});
+    EXPECT_TRUE(tail_report(sky.image, sky.passes).stands_out);
 }
 
 TEST(TailReport, IsSilentWhereThereIsNothingToSay) {

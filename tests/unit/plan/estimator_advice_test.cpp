@@ -12,7 +12,8 @@ namespace treefarm {
 namespace {
 
 std::string advice(const Scene& scene) {
-    return estimator_advice(scene, resolve({}, scene));
+    const EstimatorAdvice advice = estimator_advice(scene, resolve({}, scene));
+    return advice.type + ": " + advice.reason;
 }
 
 /// A floor that the camera sees, a lamp above it, and what is put between.

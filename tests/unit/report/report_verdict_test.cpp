@@ -16,71 +16,12 @@
 #include "report/study_page.h"
 #include "report/study_tables.h"
 #include "report/verdict.h"
+#include "tests/support/made_study.h"
 
 namespace treefarm {
 namespace {
 
-const SceneResult kRoom{"room", "room.xml", "room.exr", 0.001, true},
-    kHall{"hall", "hall.xml", "hall.exr", 0.001, true};
-
-/// A cell of two passes: the error falls as the inverse square root of time, to `error` after `seconds`.
-CellResult cell(const std::string& scene, const std::string& method, std::size_t repetition, double error,
-                double fraction = 1, double rel_error = 0, double seconds = 4) {
-    CellResult made;
-    made.scene = scene;
-    made.method = method;
-    made.seed = repetition + 1;
-    made.repetition = repetition;
-    made.budget = "seconds = 4";
-    for (const double part : {0.25, 1.0}) {
-        PassRow row;
-        row.pass = static_cast<int>(made.passes.size());
-        row.spp_done = static_cast<int>(16 * part);
-        row.threads = 2;
-        row.run_seconds = part * seconds;
-        row.core_seconds = part * seconds * 2 * fraction;
-        row.phases = {{"collect", seconds * (made.passes.empty() ? 0.25 : 0.75)}};
-        const double now = error / std::sqrt(part), rel = rel_error > 0 ? rel_error : now;
-        row.measured = {{"rmse_over_mean", now}, {"rel_mse", rel * rel}, {"rel_mse_trimmed", rel * rel},
-                        {"mape", now},           {"outliers", 0},        {"smape", now},
-                        {"mean_ratio", 1}};
-        row.estimate = now;
-        row.halving = row.target = {NAN, ""};
-        made.passes.push_back(row);
-    }
-    return made;
-}
-
-StudyResults study(std::vector<CellResult> cells, std::vector<SceneResult> scenes = {kRoom}) {
-    StudyResults results;
-    results.scenes = std::move(scenes);
-    results.methods = {{"plain", {}}, {"guided", {}}};
-    results.baseline = "plain";
-    results.budgets = {"seconds = 4"};
-    results.planned = cells.size();
-    results.cells = std::move(cells);
-    return results;
-}
-
-/// Seeds whose errors scatter by a few per cent around those of each method.
-std::vector<CellResult> seeds(const std::string& scene, std::size_t count, double plain, double guided,
-                              double fraction = 1) {
-    std::vector<CellResult> cells;
-    for (std::size_t k = 0; k < count; ++k) {
-        const double scatter = 1 + 0.02 * static_cast<double>(k % 3);
-        cells.push_back(cell(scene, "plain", k, plain * scatter, fraction));
-        cells.push_back(cell(scene, "guided", k, guided / scatter, fraction));
-    }
-    return cells;
-}
-
-void expect_part(const std::string& text, const std::string& part) {
-    EXPECT_NE(text.find(part), std::string::npos) << part << "\nis not in\n" << text;
-}
-
-void expect_no_part(const std::string& text, const std::string& part) {
-    EXPECT_EQ(text.find(part), std::string::npos) << part << "\nis in\n" << text;
-}
+using namespace test;  // cells and studies made up
 
 TEST(Verdict, SaysWhoWonByHowMuchAndWhatFivePercentCost) {
     const StudyResults results = study(seeds("room", 5, 0.08, 0.04));
@@ -98,7 +39,7 @@ TEST(Verdict, TwoSeedsCannotTell) {
     expect_part(text, "Cannot tell who won: 2 seeds say nothing of chance");
     expect_no_part(text, "[");
     const StudyResults results = study(seeds("room", 2, 0.08, 0.04));
-    expect_no_part(final_table(results, kRoom, clocks()[0]) + time_table(results, kRoom, measures()[0], clocks()[0]),
+    expect_no_part(headline_table(results, kRoom, clocks()[0]) + time_table(results, kRoom, measures()[0], clocks()[0]),
                    "[");
 }
 
@@ -110,7 +51,7 @@ TEST(Verdict, IntervalsThatHoldOneCannotTell) {
     }
     const StudyResults results = study(std::move(cells));
     expect_part(answers(results, clocks()[0])[0], "Cannot tell who won: guided came out first, ");
-    expect_part(final_table(results, kRoom, clocks()[0]), "(cannot tell)");
+    expect_part(headline_table(results, kRoom, clocks()[0]), "(cannot tell)");
 }
 
 TEST(Verdict, TheBaselineMayWin) {
@@ -163,11 +104,13 @@ TEST(Verdict, ABusyMachineIsTold) {
 TEST(Figures, WideIntervalsAreNotPrinted) {
     EXPECT_EQ(gain_text({2, 1.5, 2.5, 3}), "2 [1.5, 2.5]");
     EXPECT_EQ(gain_text({2, 0.5, 4, 3}), "2 [0.5, 4] (cannot tell)");
+    EXPECT_EQ(gain_text({1.36, 1.003, 1.85, 3}), "1.36 [1.003, 1.85]") << "1 is not within";
     EXPECT_EQ(gain_text({2, 0.01, 215, 3}), "2 (cannot tell)");
     EXPECT_EQ(gain_text({2, 0.9, 4, 2}), "2 (2 seeds: cannot tell)");
     EXPECT_EQ(time_text(Interval{3, 2, 4, 3}, false), "3 s [2 s, 4 s]");
-    EXPECT_EQ(time_text(Interval{8000, 3.78, 2e7, 3}, false), "2.22 h");
-    EXPECT_EQ(time_text(3, true), "3 core-s");
+    EXPECT_EQ(time_text(Interval{8000, 3.78, 2e7, 3}, false), "2:13:20");
+    EXPECT_EQ(time_text(100, false), "1:40");
+    EXPECT_EQ(time_text(3, true), "3 s of a core");
 }
 
 TEST(Charts, ShowWhatWasMeasuredNotTheirIntervals) {
@@ -183,10 +126,12 @@ TEST(Charts, ShowWhatWasMeasuredNotTheirIntervals) {
 }
 
 /// A run directory with what a report reads of it.
-std::filesystem::path run_folder(const std::string& name, const std::string& type, int seed, double error) {
+std::filesystem::path run_folder(const std::string& name, const std::string& type, int seed, double error,
+                                 int spp = 4) {
     const auto folder = std::filesystem::path(testing::TempDir()) / ("report_run_" + std::to_string(getpid())) / name;
     std::filesystem::create_directories(folder);
-    std::ofstream(folder / "job.toml") << "[guiding]\ntype = '" << type << "'\n\n[sampler]\nseed = " << seed << "\n";
+    std::ofstream(folder / "job.toml") << "[guiding]\ntype = '" << type << "'\n\n[sampler]\nseed = " << seed
+                                       << "\n\n[budget]\nspp = " << spp << "\n";
     std::ofstream(folder / "summary.json")
         << R"({"scene": "/a/room.xml", "width": 8, "height": 6, "build": {"source": "abc"}, "host": "node7",
                "farm": {"workers": [{"threads": 2}, {"threads": 2}]}, "passes": [)"
@@ -230,10 +175,23 @@ TEST(Runs, MakeAStudyWithoutReferences) {
     expect_part(answers(results, clocks()[0])[0],
                 "room 8 x 6: type = ppg won: 3.97 [3.83, 4.11] times as fast as type = none (to equal estimated RMSE");
     expect_part(study_page(results), "No reference: errors are those that the renders estimated");
+    const std::vector<std::filesystem::path> alike = {folders[0], folders[2]};
+    expect_part(answers(read_run_results(alike), clocks()[0])[0],
+                "There is one method only, and nothing to compare it with: " + folders[0].string() + " and " +
+                    folders[2].string() + " differ by seed or image size alone.");
     const std::vector<std::filesystem::path> twice = {folders[0], run_folder("again", "none", 1, 0.08)};
     EXPECT_EQ(read_run_results(twice).methods.size(), 2u) << "the same render twice is no second seed";
     std::filesystem::remove(folders[0] / "summary.json");
     EXPECT_THROW(read_run_results(folders), InputError);
+}
+
+TEST(Runs, OfUnequalBudgetsAreMethodsOfTheirOwn) {
+    const std::vector<std::filesystem::path> folders = {run_folder("few", "ppg", 1, 0.08, 4),
+                                                        run_folder("many", "ppg", 2, 0.03, 64)};
+    const StudyResults results = read_run_results(folders);
+    ASSERT_EQ(results.methods.size(), 2u);
+    EXPECT_EQ(results.methods[1].name, "spp = 64");
+    expect_part(answers(results, clocks()[0])[0], "spp = 64 came out first, ");
 }
 
 TEST(Export, WritesFiguresForAPaper) {
@@ -268,6 +226,40 @@ TEST(Page, BeginsWithItsAnswer) {
                              "id=\"by-core_seconds\" class=\"clock\" autocomplete=\"off\" checked"})
         expect_part(html, part);
     EXPECT_LT(html.find("guided won"), html.find("<table>"));
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+        ++found;
+    return found;
+}
+
+TEST(Page, ShowsOneMeasureAndFoldsTheOthers) {
+    StudyResults results = study(seeds("room", 3, 0.08, 0.04));
+    results.has_references = false;
+    results.folder = "/tmp/nowhere";
+    const std::string html = study_page(results), open = html.substr(0, html.find("<details>"));
+    ASSERT_LT(open.size(), html.size());
+    EXPECT_EQ(count(open, "<svg"), 2u) << "one chart, by each clock";
+    expect_part(open, "<th>error</th><th>times as fast as plain</th>");
+    for (const char* unknown : {"relMSE", "gain"})
+        expect_no_part(open.substr(open.find("<h2>")), unknown);
+    expect_part(html, "<summary>Other measures</summary>");
+    EXPECT_EQ(count(html, "<details>"), count(html, "</details>"));
+}
+
+TEST(Measures, ThatAreEqualAreLeftOut) {
+    const StudyResults results = study(seeds("room", 3, 0.08, 0.04));
+    EXPECT_EQ(distinct_measures(results.cells).size(), 1u) << "made up so that all are equal";
+    std::vector<CellResult> cells = seeds("room", 2, 0.08, 0.04);
+    for (CellResult& cell : cells)
+        for (PassRow& row : cell.passes)
+            row.measured["rel_mse"] = row.measured["rel_mse_trimmed"] = 0.3;
+    ASSERT_EQ(distinct_measures(cells).size(), 2u);
+    EXPECT_STREQ(distinct_measures(cells)[1].key, "root_rel_mse");
+    cells.back().passes.back().measured["rel_mse_trimmed"] = 0.2;
+    EXPECT_EQ(distinct_measures(cells).size(), 3u);
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 
 #include <limits>
 
+#include "common/base/text/duration_text.h"
+
 namespace treefarm {
 namespace {
 
@@ -50,16 +52,21 @@ TEST(PassText, DurationsReadAsOnAClock) {
     EXPECT_EQ(duration_text(59.96), "1:00");
     EXPECT_EQ(duration_text(70), "1:10");
     EXPECT_EQ(duration_text(3600 + 62), "1:01:02");
-    EXPECT_EQ(duration_text(11.5 * 3600), "11.5 h");
+    EXPECT_EQ(duration_text(11.5 * 3600), "11:30:00");
     EXPECT_EQ(duration_text(10 * 86400.0), "10 days");
+    EXPECT_EQ(limit_text(10), "10 s");
+    EXPECT_EQ(limit_text(0.25), "0.25 s");
+    EXPECT_EQ(limit_text(90), "1:30");
     EXPECT_EQ(rough_duration_text(0.2), "1 s");
     EXPECT_EQ(rough_duration_text(5.6), "6 s");
+    EXPECT_EQ(rough_duration_text(6 * 3600 + 58 * 60 + 4), "6:58:00") << "no forecast is right to the second";
+    EXPECT_EQ(rough_duration_text(14 * 3600 + 3 * 60 + 40), "14:04:00");
     EXPECT_EQ(rough_duration_text(std::numeric_limits<double>::infinity()), "a very long time");
 }
 
 TEST(PassText, APassIsOneShortLine) {
-    EXPECT_EQ(pass_line(sixth_pass(), 7), "pass 6/7   63 spp   7.1 s   error 42.8 %   half of it in about 1:10");
-    EXPECT_EQ(pass_line(sixth_pass(), 0), "pass 6   63 spp   7.1 s   error 42.8 %   half of it in about 1:10");
+    EXPECT_EQ(pass_line(sixth_pass(), 7), "pass 6/7   63 spp   7.1 s   error 42.8 %   half in about 1:10");
+    EXPECT_EQ(pass_line(sixth_pass(), 0), "pass 6   63 spp   7.1 s   error 42.8 %   half in about 1:10");
 }
 
 TEST(PassText, WhereAnErrorWasAskedForTheLineIsAboutThat) {

@@ -87,7 +87,7 @@ TEST(Progress, OfSeconds) {
     RenderProgress progress = sixth_of_seven(0.1, 32.4);
     progress.pass_count = 0;
     const Status status = status_of(progress, budget);
-    EXPECT_EQ(status.line, "pass 6   54 % of 60 s   32.4 s   28 s left");
+    EXPECT_EQ(status.line, "pass 6   54 % of 1:00   32.4 s   28 s left");
     EXPECT_NEAR(status.fraction, 0.54, 1e-9);
 }
 

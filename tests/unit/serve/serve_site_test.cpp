@@ -44,7 +44,9 @@ class ServeSite : public testing::Test {
   protected:
     void SetUp() override {
         test::write_file(folder / "runs/box/status.json", running_status(kNow - 1));
-        test::write_file(folder / "runs/box/log.txt", "first line\nsecond \x1b[31mline\n");
+        test::write_file(folder / "runs/box/log.txt",
+                         "first line\n2026-11-29 01:02:03.123 treefarm debug: pass 1/7: stuv 0.3, ttuv 0.1 core-s\n"
+                         "second \x1b[31mline, debug: no level\n");
         test::write_file(folder / "runs/box/passes.csv", "pass,spp,error,run_seconds\n0,4,0.5,1\n1,8,,2.5\n2,16,0.1");
         test::write_file(folder / "runs/box/preview.png", "picture");
         test::write_file(folder / "secret.txt", "secret");
@@ -128,7 +130,7 @@ TEST_F(ServeSite, AViewHoldsWhatTheFilesSay) {
     ASSERT_EQ(view["table"].size(), 2u) << "the third line is not whole yet";
     EXPECT_EQ(view["table"][0]["error"], 0.5);
     EXPECT_TRUE(view["table"][1]["error"].is_null());
-    EXPECT_EQ(view["log"], (FileJson{"first line", "second ?[31mline"}));
+    EXPECT_EQ(view["log"], (FileJson{"first line", "second ?[31mline, debug: no level"}));
     EXPECT_TRUE(view["image_hash"].is_null());
     test::write_file(folder / "runs/box/summary.json", R"({"state": "interrupted", "image_hash": "old"})");
     EXPECT_TRUE(run_view(ConfinedFolder(folder / "runs"), "box", here_at(kNow))["image_hash"].is_null())
