@@ -79,7 +79,7 @@ void print(const PlanOptions& options, const RenderRequest& request, const PlanA
 int run_plan(const PlanOptions& options, std::ostream& out) {
     RenderRequest request = read_request(options.render);
     for (const Finding& cause : dark_causes(request.content.scene))
-        request.content.plan.warnings.push_back(cause.text());
+        request.content.plan.warnings.push_back(cause.sentence());
     request.content.plan.advice = estimator_advice(request.content.scene, request.content.plan.job);
     if (!options.asks() || options.no_probe) {
         print(options, request, nullptr, out);
