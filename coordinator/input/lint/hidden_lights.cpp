@@ -9,17 +9,8 @@
 #include "coordinator/input/lint/emitter_points.h"
 
 namespace treefarm::linting {
-namespace {
 
 using Imath::V3d;
-
-constexpr int kColumns = 12, kRows = 8;  ///< of the camera's rays
-constexpr int kLightRays = 96;           ///< of an emitter
-constexpr int kMostSmooth = 8;           ///< smooth surfaces that a ray is followed over
-constexpr double kStep = 1e-5;           ///< offset from a surface, over the scene's size
-constexpr double kNear = 0.1;            ///< distance from a point that the camera sees, over the scene's size
-
-}  // namespace
 
 HiddenLights::HiddenLights(const Scene& scene, const FirstHitSearch& search) : scene_(scene), search_(search) {}
 

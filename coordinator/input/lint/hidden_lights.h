@@ -20,6 +20,12 @@ class HiddenLights {
     void judge(const Emitter& emitter, std::vector<Finding>& findings);
 
   private:
+    static constexpr int kColumns = 12, kRows = 8;  ///< of the camera's rays
+    static constexpr int kLightRays = 96;           ///< of an emitter
+    static constexpr int kMostSmooth = 8;           ///< smooth surfaces that a ray is followed over
+    static constexpr double kStep = 1e-5;           ///< offset from a surface, over the scene's size
+    static constexpr double kNear = 0.1;            ///< distance from a point that is seen, over the scene's size
+
     /// End of a ray at a surface that is neither smooth glass nor a mirror, just before it.
     struct End {
         Imath::V3d point;

@@ -49,7 +49,7 @@ UvTransform read_uv_transform(Properties& properties) {
 }
 
 /// Number that a colour stands for; grey keeps its bits.
-float number_of(const Rgb& color, bool mean) {
+float as_number(const Rgb& color, bool mean) {
     return mean || (color.x == color.y && color.y == color.z) ? average(color) : luminance(color);
 }
 
@@ -134,7 +134,7 @@ FloatInput TextureReader::number(Properties& properties, const std::string& name
         diagnostics_.warn(properties.where(name),
                           in_quotes(name) + " of " + properties.title() +
                               " is coloured: " + (mean ? "the mean of its channels" : "its luminance") + " is used");
-    return {number_of(input.value, mean), input.texture};
+    return {as_number(input.value, mean), input.texture};
 }
 
 ColorInput TextureReader::heights(const XmlElement& texture) {
