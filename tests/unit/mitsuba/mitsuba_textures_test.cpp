@@ -138,9 +138,10 @@ TEST_F(MitsubaTextures, ColouredImagesForNumbers) {
     const LoadedScene old = mask("green.png", "0.6.0");
     EXPECT_EQ(old.scene.images.at(0).bytes, (std::vector<std::uint8_t>{0, 255, 0}));
     EXPECT_NE(old.notes.back().what.find("the mean of its channels counts"), std::string::npos);
-    const Scene bump = load_with_sensor("<shape type=\"rectangle\"><bsdf type=\"bumpmap\">" +
-                                        bitmap("<float name=\"gamma\" value=\"1\"/>", "green.png", "") +
-                                        "<bsdf type=\"diffuse\"/></bsdf></shape>")
+    const Scene bump = load_with_sensor(
+                           "<shape type=\"rectangle\"><bsdf type=\"bumpmap\"><texture type=\"bitmap\">"
+                           "<string name=\"filename\" value=\"green.png\"/><float name=\"gamma\" value=\"1\"/>"
+                           "</texture><bsdf type=\"diffuse\"/></bsdf></shape>")
                            .scene;
     EXPECT_NEAR(bump.images.at(0).floats.at(0), 0.7152f, 1e-4f);
 }
