@@ -252,12 +252,11 @@ TEST(NormalsIntegrator, ShowsTheNormalsOfShading) {
     Scene scene = tilted_wall();
     Job job;
     job.integrator.type = "normals";
-    job.budget.spp = 1;
-    const Rgb64 tilted = test::render_locally(scene, job).image.mean[27];
+    const Rgb64 tilted = render(scene, "", 1, job).pixels[27].whole().mean;
     EXPECT_NEAR(tilted.x, 0.8, 1e-5);
     EXPECT_NEAR(tilted.z, 0.1, 1e-5);
     scene.materials[0].detail = {};
-    EXPECT_NEAR(test::render_locally(scene, job).image.mean[27].x, 0.5, 1e-6);
+    EXPECT_NEAR(render(scene, "", 1, job).pixels[27].whole().mean.x, 0.5, 1e-6);
 }
 
 TEST(FirstHit, LeavesTheImageAndItsCountsAlone) {

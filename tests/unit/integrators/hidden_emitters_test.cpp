@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/aov_render.h"
-#include "tests/support/local_render.h"
 #include "tests/support/test_scenes.h"
 
 namespace treefarm {
@@ -30,20 +29,18 @@ Job job_of(const char* type) {
     job.integrator.type = type;
     job.integrator.hide_emitters = true;
     job.integrator.max_depth = 2;
-    job.guiding.type = GuidingType::none;
-    job.budget.spp = 256;
     return job;
 }
 
 /// Mean of all pixels, and of those before which the lamp is.
 std::array<double, 2> means(const Scene& scene, const char* type) {
-    const std::vector<Rgb64> image = test::render_locally(scene, job_of(type)).image.mean;
+    const std::vector<PixelEstimate> image = test::render_layers(scene, "", 256, job_of(type)).pixels;
     double whole = 0, middle = 0;
     for (std::size_t p = 0; p < 64; ++p)
-        whole += image[p].x / 64;
+        whole += image[p].whole().mean.x / 64;
     for (std::size_t y = 2; y < 6; ++y)
         for (std::size_t x = 2; x < 6; ++x)
-            middle += image[8 * y + x].x / 16;
+            middle += image[8 * y + x].whole().mean.x / 16;
     return {whole, middle};
 }
 

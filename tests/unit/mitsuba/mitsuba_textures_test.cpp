@@ -24,7 +24,8 @@ class MitsubaTextures : public MitsubaFixture {
                inside + "</texture>";
     }
     static std::string diffuse(const std::string& texture) {
-        return "<shape type=\"rectangle\"><bsdf type=\"diffuse\">" + texture + "</bsdf></shape>";
+        return "<shape type=\"rectangle\"><bsdf type=\"diffuse\">" + texture +
+               "</bsdf></shape><emitter type=\"point\"/>";
     }
     Scene scene(const std::string& inside, const std::string& file = "rgb.png",
                 const std::string& version = "0.6.0") const {
@@ -223,7 +224,7 @@ TEST_F(MitsubaTextures, CheckerboardsAndScales) {
     EXPECT_EQ(input.value, Rgb(0.5f));
     EXPECT_EQ(input.texture, 0);
     EXPECT_THROW(material("<texture type=\"scale\" name=\"reflectance\"/>"), InputError);
-    EXPECT_THROW(material("<texture type=\"wireframe\" name=\"reflectance\"/>"), InputError);
+    EXPECT_THROW(material("<texture type=\"curvature\" name=\"reflectance\"/>"), InputError);
 }
 
 TEST_F(MitsubaTextures, FilesAreReadOnceAndOnlyIfUsed) {

@@ -14,7 +14,7 @@ class MitsubaUnqueried : public MitsubaFixture {
     /// Warnings about what stands in the file, not about the whole scene.
     std::vector<std::string> warnings(const std::string& body) const {
         std::vector<std::string> texts;
-        for (const Warning& warning : load_with_sensor(body).warnings)
+        for (const Warning& warning : load_with_sensor(body + "<emitter type=\"point\"/>").warnings)
             if (warning.where.line > 0) texts.push_back(warning.text());
         return texts;
     }
