@@ -10,6 +10,7 @@
 
 #include "cli/commands.h"
 #include "cli/option_values.h"
+#include "common/base/text/printable.h"
 #include "coordinator/input/check/validate.h"
 #include "coordinator/input/lint/lint.h"
 #include "coordinator/input/load.h"
@@ -115,8 +116,8 @@ int run_check(const CheckOptions& options, std::ostream& out) {
         out << to_json(findings, options.scene);
     } else {
         for (const Finding& finding : findings)
-            out << finding.text() << "\n";
-        out << options.scene << ": " << verdict(errors, warnings) << "\n";
+            out << printable(finding.text()) << "\n";
+        out << printable(options.scene) << ": " << verdict(errors, warnings) << "\n";
     }
     if (errors > 0) return kRefused;
     return warnings == 0 ? 0 : kFoundSomething;

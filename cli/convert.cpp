@@ -86,17 +86,22 @@ void run_convert(const ConvertOptions& options, std::ostream& out) {
     const auto stops = static_cast<float>(options.exposure);
     if (stops != 0.0f && layer.kind != ImageLayer::Kind::colour)
         throw InputError(Location{"--exposure"}, "the layer is no colour", "leave it out");
+    const bool has_alpha = options.layer.empty() && layer.kind == ImageLayer::Kind::colour;
     if (extension == ".png") {
         std::string range;
-        write_png(options.output, picture_of_layer(file.image, layer, {stops, tonemap}, range));
+        const std::span<const float> alpha = has_alpha ? alpha_of(file.image) : std::span<const float>();
+        const RgbImage picture = picture_of_layer(file.image, layer, {stops, tonemap, alpha}, range);
+        write_file_atomically(options.output, encode_png(picture, 1.0f, alpha));
         out << range;
         return;
     }
-    const Image alone = layer_alone(file.image, layer, std::exp2(stops));
-    if (extension == ".exr")
+    Image alone = layer_alone(file.image, layer, std::exp2(stops));
+    if (extension == ".exr") {
+        if (const auto alpha = alpha_of(file.image); has_alpha && !alpha.empty())
+            std::copy(alpha.begin(), alpha.end(), alone.add_channel("A").begin());
         write_exr(options.output, alone);
-    else
-        write_file_atomically(options.output, encode_pfm(alone));
+    }
+    if (extension == ".pfm") write_file_atomically(options.output, encode_pfm(alone));
 }
 
 void add_convert_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_code) {

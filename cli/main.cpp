@@ -15,6 +15,7 @@
 #include "cli/usage.h"
 #include "common/base/error.h"
 #include "common/base/float_traps.h"
+#include "common/base/text/printable.h"
 
 namespace treefarm {
 
@@ -33,7 +34,7 @@ constexpr std::chrono::seconds kFirstRankSpeaks{3};
 
 int fail(const LaunchEnvironment& launch, const std::string& message, int exit_code) {
     if (launch.rank == 0) {
-        std::fprintf(stderr, "treefarm: %s\n", message.c_str());
+        std::fprintf(stderr, "treefarm: %s\n", printable_lines(message).c_str());
         if (launch.life) {  // a supervisor need not restart after a user's error
             launch.life->begin();
             launch.life->end(exit_code);
@@ -41,7 +42,7 @@ int fail(const LaunchEnvironment& launch, const std::string& message, int exit_c
         return exit_code;
     }
     std::this_thread::sleep_for(kFirstRankSpeaks);
-    std::fprintf(stderr, "treefarm: rank %d: %s\n", launch.rank, message.c_str());
+    std::fprintf(stderr, "treefarm: rank %d: %s\n", launch.rank, printable_lines(message).c_str());
     return exit_code;
 }
 

@@ -106,9 +106,10 @@ RgbImage picture_of_layer(const Image& image, const ImageLayer& layer, const Pic
     switch (layer.kind) {
         case ImageLayer::Kind::colour: {
             const float factor = std::exp2(options.exposure);
-            each([&](std::size_t p) {
-                return tone_mapped(options.tonemap, Rgb(value(0, p), value(1, p), value(2, p)) * factor);
-            });
+            each([&](std::size_t p) { return Rgb(value(0, p), value(1, p), value(2, p)) * factor; });
+            picture = straight_colours(std::move(picture), options.alpha);
+            for (Rgb& pixel : picture.pixels)
+                pixel = tone_mapped(options.tonemap, pixel);
             break;
         }
         case ImageLayer::Kind::vector: {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ ImageLayer find_image_layer(const Image& image, const std::string& layer, const 
 struct PictureOptions {
     float exposure = 0;  ///< in stops: colours are multiplied by 2^exposure
     ToneMap tonemap = ToneMap::srgb;
+    std::span<const float> alpha{};  ///< colours are divided by it before; empty: they are not
 };
 
 /// A layer as linear colours for a screen: colours by exposure and tone map; vectors up to length 1 as 0.5 + 0.5 v;

@@ -120,7 +120,7 @@ int run_plan(const PlanOptions& options, std::ostream& out) try {
     if (!options.render.frames.empty()) frames = parse_frames(options.render.frames, Location{"--frames", 0, 0});
     RenderRequest request = read_request(frames.empty() ? options.render : frame_options(options.render, frames[0]));
     for (const Finding& cause : dark_causes(request.content.scene))
-        request.content.plan.warnings.push_back(cause.text());
+        request.content.plan.warnings.push_back(cause.sentence());
     print(options, request, frames.empty() ? find(options, request) : find_frames(options, frames), out);
     return 0;
 } catch (const Interrupted&) {

@@ -11,6 +11,7 @@
 #include "coordinator/render/render_series.h"
 #include "coordinator/render/resume.h"
 #include "coordinator/run/folder_content.h"
+#include "coordinator/shot/frames.h"
 #include "coordinator/words/reading_notice.h"
 
 namespace treefarm {
@@ -96,7 +97,14 @@ void add_render_command(CLI::App& app, const LaunchEnvironment& launch, const st
                     "pass,x,y,sample: print one path, vertex by vertex; pass,x0,y0,x1,y1,chunk: trace one tile");
     command->footer(std::string(kDefaultsText) + "\n" + kExitCodesText);
     command->callback([options, launch, &exit_code] {
-        const auto read = [&] { return read_request(*options); };
+        const auto read = [&] {
+            RenderRequest request = read_request(*options);
+            if (const std::string& file = request.content.job.output.file; output_names_frame(file))
+                request.content.warnings.push_back("-o " + file +
+                                                   ": #### and %d stand for a frame's number with --frames only: the "
+                                                   "file gets just this name");
+            return request;
+        };
         if (options->carry_model && options->frames.empty())
             throw InputError(Location{"--carry-model", 0, 0},
                              "carries models from frame to frame, and there is one image",

@@ -125,7 +125,7 @@ std::vector<Setting> scene_layer(std::span<const Setting> scene,
 std::vector<Setting> parse_job_settings(const std::string& toml, const std::string& name) {
     std::vector<Setting> settings;
     try {
-        toml::table table = toml::parse(toml, std::string_view(name));
+        toml::table table = parse_toml(toml, name);
         require_kind(table, name, TomlKind::job);
         std::vector<Setting> record;
         for (const std::string section : {"experiment", "policy"}) {

@@ -16,6 +16,23 @@ constexpr std::pair<const char*, const char*> kRenamedKeys[] = {
     {"guiding.light_selection", "integrator.light_selection"},
 };
 
+/// Throws InputError for a key or a table's name of more than kMostDots dots. Texts in quotes are not told from keys:
+/// none has so many dots before a ']' or '='.
+void refuse_deep_keys(const std::string& text, const std::string& name) {
+    constexpr int kMostDots = 256;
+    int dots = 0, line = 1;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        const char c = text[at];
+        if (c == '#') at = std::min(text.find('\n', at), text.size()) - 1;
+        if (c == '.') ++dots;
+        if ((c == '=' || c == ']') && dots > kMostDots)
+            throw InputError(Location{name, line, 0}, "a key of " + std::to_string(dots) + " dots",
+                             "keys have a few: repair the file");
+        if (c == '\n' || c == ',' || c == '=' || c == '[' || c == ']' || c == '{' || c == '#') dots = 0;
+        if (c == '\n') ++line;
+    }
+}
+
 /// Whether a name is a section, that is, the beginning of a key's name: "scene", "scene.defines".
 bool is_section(const std::string& name) {
     const std::string beginning = name + ".";
@@ -120,6 +137,11 @@ std::string value_text(const toml::node& node) {
 }
 
 }  // namespace
+
+toml::table parse_toml(const std::string& text, const std::string& name) {
+    refuse_deep_keys(text, name);
+    return toml::parse(text, std::string_view(name));
+}
 
 Location toml_location(const toml::source_region& region, const std::string& file) {
     return {file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};

@@ -14,6 +14,10 @@ namespace treefarm {
 
 // Reading of job keys from TOML, shared by job and study files.
 
+/// The table of a TOML text; `name`: its file. Throws toml::parse_error, and InputError for keys of so many dots that
+/// their tables, each in the one before, would exhaust the stack.
+toml::table parse_toml(const std::string& text, const std::string& name);
+
 Location toml_location(const toml::source_region& region, const std::string& file);
 
 /// Name of a TOML type for messages: "text", "an integer", "a table"...

@@ -63,6 +63,17 @@ void add_rgb_layer(Image& image, const std::string& layer, const RgbImage& rgb) 
     }
 }
 
+RgbImage straight_colours(RgbImage image, std::span<const float> alpha) {
+    for (std::size_t i = 0; i < alpha.size(); ++i)
+        if (alpha[i] > 0.0f) image.pixels[i] /= alpha[i];
+    return image;
+}
+
+std::span<const float> alpha_of(const Image& image) {
+    const auto alpha = image.find("A");
+    return alpha ? image.channel(*alpha) : std::span<const float>();
+}
+
 RgbImage cut_out(const RgbImage& image, const CropWindow& crop, int width, int height) {
     if (crop.x < 0 || crop.y < 0 || crop.x > image.width - width || crop.y > image.height - height)
         throw RunError("a window that is not on its image");

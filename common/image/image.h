@@ -54,6 +54,13 @@ struct RgbImage {
         : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), fill) {}
 };
 
+/// Straight colours of premultiplied ones: divided by alpha where that is above 0. `alpha`: one for each pixel, or
+/// none.
+RgbImage straight_colours(RgbImage image, std::span<const float> alpha);
+
+/// Alpha of an image's own colours, the channel A; empty if there is none.
+std::span<const float> alpha_of(const Image& image);
+
 /// The pixels of a crop window of `width` x `height`.
 RgbImage cut_out(const RgbImage& image, const CropWindow& crop, int width, int height);
 

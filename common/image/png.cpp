@@ -44,14 +44,20 @@ struct ByteTable {
 
 }  // namespace
 
-std::vector<std::uint8_t> encode_png(const RgbImage& image, float exposure) {
+std::vector<std::uint8_t> encode_png(const RgbImage& image, float exposure, std::span<const float> alpha) {
     static const ByteTable table;
-    std::vector<std::uint8_t> rgb(3 * image.pixels.size());
-    std::uint8_t* next = rgb.data();
-    for (const Rgb& pixel : image.pixels)
+    const int channels = alpha.empty() ? 3 : 4;
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(channels) * image.pixels.size());
+    std::uint8_t* next = bytes.data();
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         for (int c = 0; c < 3; ++c)
-            *next++ = table.of(pixel[c] * exposure);
-    std::vector<std::uint8_t> png = encode_png(image.width, image.height, rgb);
+            *next++ = table.of(image.pixels[i][c] * exposure);
+        if (channels == 4) {
+            const float clamped = alpha[i] > 0.0f ? std::min(alpha[i], 1.0f) : 0.0f;  // NaN fails the comparison
+            *next++ = static_cast<std::uint8_t>(clamped * 255.0f + 0.5f);
+        }
+    }
+    std::vector<std::uint8_t> png = encode_png(image.width, image.height, channels, bytes);
     if (png.empty())
         throw RunError("an image of " + std::to_string(image.width) + " x " + std::to_string(image.height) +
                        " pixels cannot be encoded as PNG; make it smaller");

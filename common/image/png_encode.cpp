@@ -28,14 +28,14 @@ void append_chunk(Bytes& file, std::string_view kind, std::span<const std::uint8
 
 /// Rows, each as the difference from the one above: rendered images have few other regularities, and no filter is
 /// cheaper.
-Bytes filtered(std::size_t row_bytes, std::span<const std::uint8_t> rgb) {
+Bytes filtered(std::size_t row_bytes, std::span<const std::uint8_t> bytes) {
     constexpr std::uint8_t kUp = 2;
-    const std::size_t rows = rgb.size() / row_bytes;
+    const std::size_t rows = bytes.size() / row_bytes;
     Bytes lines((row_bytes + 1) * rows);
     const Bytes black(row_bytes);
     const std::uint8_t* above = black.data();
     for (std::size_t y = 0; y < rows; ++y) {
-        const std::uint8_t* row = rgb.data() + y * row_bytes;
+        const std::uint8_t* row = bytes.data() + y * row_bytes;
         std::uint8_t* line = lines.data() + y * (row_bytes + 1);
         *line++ = kUp;
         for (std::size_t k = 0; k < row_bytes; ++k)
@@ -63,11 +63,11 @@ Bytes deflated(Bytes& lines) {
 
 }  // namespace
 
-std::vector<std::uint8_t> encode_png(int width, int height, std::span<const std::uint8_t> rgb) {
-    if (width < 1 || height < 1 || rgb.size() % 3 != 0 ||
-        rgb.size() / 3 != static_cast<std::size_t>(width) * static_cast<std::size_t>(height) || rgb.size() > 0x70000000)
-        return {};
-    Bytes lines = filtered(3 * static_cast<std::size_t>(width), rgb);
+std::vector<std::uint8_t> encode_png(int width, int height, int channels, std::span<const std::uint8_t> bytes) {
+    if (width < 1 || height < 1) return {};
+    const std::size_t row = static_cast<std::size_t>(channels) * static_cast<std::size_t>(width);
+    if (bytes.size() != row * static_cast<std::size_t>(height) || bytes.size() > 0x70000000) return {};
+    Bytes lines = filtered(row, bytes);
     const Bytes packed = deflated(lines);
     if (packed.empty()) return {};
     Bytes file = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
@@ -75,7 +75,8 @@ std::vector<std::uint8_t> encode_png(int width, int height, std::span<const std:
     Bytes header;
     append_word(header, static_cast<std::uint32_t>(width));
     append_word(header, static_cast<std::uint32_t>(height));
-    const std::uint8_t format[] = {8, 2, 0, 0, 0};  // bits, RGB, deflate, filters by row, not interlaced
+    // bits, RGB or RGBA, deflate, filters by row, not interlaced
+    const std::uint8_t format[] = {8, static_cast<std::uint8_t>(channels == 4 ? 6 : 2), 0, 0, 0};
     header.insert(header.end(), std::begin(format), std::end(format));
     append_chunk(file, "IHDR", header);
     append_chunk(file, "IDAT", packed);

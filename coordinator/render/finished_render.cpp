@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/render/finished_render.h"
 
+#include <algorithm>
+
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/read_bytes.h"
 #include "common/base/hash.h"
+#include "common/image/exr.h"
+#include "common/image/png.h"
 #include "common/plan/resolve/resolved_file.h"
 #include "common/runs/run_json.h"
 #include "common/scene/pack/scene_codec.h"
@@ -37,8 +41,18 @@ bool holds_result_of(const fs::path& folder, const RenderRequest& request) {
 
 bool restore_output(const fs::path& folder, const std::string& file) {
     if (file.empty() || fs::exists(file)) return true;
-    // The run directory has a copy of a PNG output, too: the preview.
-    const fs::path from = folder / (fs::path(file).extension() == ".png" ? kPreviewFile : kImageFile);
+    const bool is_png = fs::path(file).extension() == ".png";
+    if (is_png) {
+        const std::vector<std::string> channels = exr_channel_names(folder / kImageFile);
+        if (std::find(channels.begin(), channels.end(), "A") != channels.end()) {
+            const Image image = read_exr(folder / kImageFile).image;
+            const std::span<const float> alpha = alpha_of(image);
+            write_file_atomically(file, encode_png(straight_colours(rgb_layer(image).value(), alpha), 1.0f, alpha));
+            return true;
+        }
+    }
+    // The run directory has a copy of a PNG output without alpha, too: the preview.
+    const fs::path from = folder / (is_png ? kPreviewFile : kImageFile);
     const std::string bytes = read_text(from);
     if (bytes.empty()) return false;
     write_file_atomically(file, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});

@@ -10,6 +10,7 @@
 #include "common/base/hash.h"
 #include "common/base/text/duration_text.h"
 #include "common/base/text/parse_text.h"
+#include "common/config/estimators.h"
 #include "common/plan/effects/plan_text.h"
 #include "common/runs/run_files.h"
 #include "coordinator/input/lint/lint.h"
@@ -90,10 +91,14 @@ void RenderLog::tell_if_black(const CombinedImage& image, std::uint32_t spp) {
     if (reported_black_ || !std::all_of(image.mean.begin(), image.mean.end(), is_dark)) return;
     reported_black_ = true;
     const std::vector<Finding> causes = dark_causes(request_.content.scene);
-    log_->warn("the image is black after {} spp{}", spp,
-               causes.empty() ? "; the cause in the scene is not obvious: no path has hit a light" : "");
+    const Estimator& estimator = estimator_of(request_.content.job.integrator.type);
+    std::string why;
+    if (causes.empty())
+        why = estimator.misses ? fmt::format("; by integrator.type = \"{}\" {}", estimator.type, estimator.misses)
+                               : "; the cause in the scene is not obvious: no path has hit a light";
+    log_->warn("the image is black after {} spp{}", spp, why);
     for (const Finding& cause : causes)
-        log_->warn("{}", cause.text());
+        log_->warn("{}", cause.sentence());
 }
 
 void RenderLog::tell_end(const RunEnd& end, const RenderResult& result, bool continued, double part,

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "common/image/png.h"
+
 namespace treefarm {
 
 namespace {
@@ -25,6 +27,13 @@ RgbImage result_colours(const CombinedImage& image, int width, int height) {
         colours.pixels[p] = Rgb(static_cast<float>(mean.x), static_cast<float>(mean.y), static_cast<float>(mean.z));
     }
     return colours;
+}
+
+std::vector<std::uint8_t> encode_picture(const CombinedImage& image, std::span<const AovChannel> aovs, int width,
+                                         int height) {
+    const auto alpha = std::find_if(aovs.begin(), aovs.end(), [](const AovChannel& aov) { return aov.name == "A"; });
+    const std::span<const float> values = alpha == aovs.end() ? std::span<const float>() : alpha->values;
+    return encode_png(straight_colours(result_colours(image, width, height), values), 1.0f, values);
 }
 
 StoredChannels result_channels(const CombinedImage& image, std::span<const AovChannel> aovs, int width, int height,

@@ -22,4 +22,8 @@ StoredChannels result_channels(const CombinedImage& image, std::span<const AovCh
 /// R, G, B of the combined image.
 RgbImage result_colours(const CombinedImage& image, int width, int height);
 
+/// PNG of the combined image; if the channel A is among the AOVs, RGBA with straight colours. Throws RunError.
+std::vector<std::uint8_t> encode_picture(const CombinedImage& image, std::span<const AovChannel> aovs, int width,
+                                         int height);
+
 }  // namespace treefarm

@@ -34,9 +34,10 @@ std::optional<Mark> next_mark(std::string_view text, std::size_t from) {
     return std::nullopt;
 }
 
-/// First run of # at or after `from`.
+/// First run of # at or after `from` in a file's own name: folders may be called "shot#2".
 std::optional<Mark> next_hashes(std::string_view text, std::size_t from) {
-    const std::size_t begin = text.find('#', from);
+    const std::size_t slash = text.rfind('/');
+    const std::size_t begin = text.find('#', slash == std::string_view::npos ? from : std::max(from, slash));
     if (begin == std::string_view::npos) return std::nullopt;
     const std::size_t size = std::min(text.find_first_not_of('#', begin), text.size()) - begin;
     return Mark{begin, size, static_cast<int>(size)};
@@ -88,6 +89,9 @@ class FrameParser {
 
     void add_range(std::string_view range) {
         if (range.empty()) refuse("a frame is missing between commas in " + in_quotes(text_), kCure);
+        if (range[0] == '-' && range.size() > 1 && is_digit(range[1]))
+            refuse(in_quotes(range) + " is no frame number, but negative",
+                   "number frames from 0 on: shift them, and the scene by a -D of its own");
         const std::size_t dash = range.find('-'), times = range.find('x');
         if (times != std::string_view::npos && (dash == std::string_view::npos || times < dash))
             refuse("a step without a range in " + in_quotes(range), "write 1-24x2 for every second frame");

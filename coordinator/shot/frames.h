@@ -22,9 +22,9 @@ bool names_frame(std::string_view text);
 /// The text with each placeholder replaced by the frame number: %d by "7", %04d by "0007".
 std::string for_frame(std::string_view text, int frame);
 
-/// names_frame() for the name of an output file, in which #### is a placeholder, too.
+/// names_frame() for the name of an output file, in which #### is a placeholder, too; not in its folders' names.
 bool output_names_frame(std::string_view file);
-/// Name of a frame's output file: for_frame(), with #### replaced by "0007", one digit for each #.
+/// Path of a frame's output file: for_frame(), with #### in the file's name replaced by "0007", one digit for each #.
 std::string output_for_frame(std::string_view file, int frame);
 
 /// Name without placeholders and the separators next to them: "walk" for "walk.%04d".

@@ -294,7 +294,7 @@ class StudyReader {
 Study parse_study(const std::string& toml, const std::filesystem::path& path) {
     StudyReader reader(path);
     try {
-        return reader.read(toml::parse(toml, path.string()));
+        return reader.read(parse_toml(toml, path.string()));
     } catch (const toml::parse_error& error) {
         throw InputError(reader.location(error.source()), "this is not TOML: " + one_line(error.description()),
                          "write key = value, text in quotes");

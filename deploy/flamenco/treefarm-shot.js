@@ -11,7 +11,7 @@ const JOB_TYPE = {
         { key: "folder", type: "string", subtype: "dir_path", required: true,
           description: "Where results go: a folder for each frame" },
         { key: "options", type: "string", default: "-D frame=%d --error 5%",
-          description: "What treefarm render takes besides; %d and %04d are the frame's number" },
+          description: "What treefarm render takes besides; %d, %04d, and #### in the name of -o, are the frame's number" },
         { key: "program", type: "string", default: "treefarm", visible: "submission", description: "Of the workers" },
         { key: "threads", type: "int32", default: 0, propargs: { min: 0, max: 1024 }, visible: "submission",
           description: "Threads of a frame; 0: a worker's processors" },
@@ -24,7 +24,10 @@ function compileJob(job) {
     for (const frame of frameChunker(settings.frames, 1)) {
         const digits = String(frame).padStart(4, "0");
         const of_frame = (word) => word.replace(/%04d/g, digits).replace(/%d/g, frame);
-        const words = ["launch", "--", "render", of_frame(settings.scene)].concat(options.map(of_frame));
+        const of_output = (word) => word.replace(/#+(?=[^/]*$)/g, (run) => String(frame).padStart(run.length, "0"));
+        const is_output = (i) => ["-o", "--output"].includes(options[i - 1]) || options[i].startsWith("--output=");
+        const arguments_of = (word, i) => of_frame(is_output(i) ? of_output(word) : word);
+        const words = ["launch", "--", "render", of_frame(settings.scene)].concat(options.map(arguments_of));
         words.push("--run-dir", path.join(settings.folder, `frame.${digits}`), "--resume");
         if (settings.threads > 0) words.push("--threads", String(settings.threads));
         const task = author.Task(`frame-${digits}`, "misc");

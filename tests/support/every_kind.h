@@ -29,12 +29,15 @@ inline Scene every_kind_scene() {
     bitmap.uv = {Vec3(2, 0, 1), Vec3(0, 3, 4)};
     BitmapTexture plain;
     plain.image = 2;
+    scene.camera.passes_hidden_emitters = true;
     scene.textures = {
         {bitmap, "wood", {"a.xml", 1, 2}},
         {CheckerboardTexture{Rgb(0.5f, 0.25f, 0.125f), Rgb(1.0f), {Vec3(4, 0, 0), Vec3(0, 5, 0)}}, "", {}},
         {plain, "gray", {}},
         {MeshAttributeTexture{"vertex_color"}, "painted", {"a.xml", 3, 4}},
-        {MeshAttributeTexture{"face_wear"}, "worn", {}}};
+        {MeshAttributeTexture{"face_wear"}, "worn", {}},
+        {GridTexture{Rgb(0.25f), Rgb(0.75f), 0.125f, {Vec3(2, 0, 0), Vec3(0, 3, 0)}}, "grid", {}},
+        {WireframeTexture{Rgb(0.125f), Rgb(0.5f), 0.25f, 0.75f}, "wires", {}}};
 
     const Roughness rough{Microfacets::ggx, {0.25f}, {0.5f, 2}}, coat{Microfacets::beckmann, {0.125f}, {0.125f}};
     const auto add = [&](decltype(Material::bsdf) bsdf) -> Material& {

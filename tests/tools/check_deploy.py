@@ -40,7 +40,8 @@ globalThis.frameChunker = (frames) => frames.split(",").flatMap((part) => {
     return Array.from({length: (last || first) - first + 1}, (_, k) => String(first + k));
 });
 (0, eval)(require("fs").readFileSync(process.argv[1], "utf8") + "; globalThis.JOB_TYPE = JOB_TYPE;");
-const settings = {scene: "/s/door.%04d.xml", folder: "/r/door", frames: "3, 5-6"};
+const settings = {scene: "/s/door.%04d.xml", folder: "/r/door", frames: "3, 5-6",
+                  options: "-D frame=%d -o /r#1/x.####.exr"};
 for (const one of JOB_TYPE.settings) {
     if (!/^[a-z_]+$/.test(one.key) || !["string", "int32", "float", "bool"].includes(one.type)) throw one.key;
     settings[one.key] ??= one.default;
@@ -92,8 +93,8 @@ def check_slurm(options):
     expect(used == SBATCH, f"{path}: directives {used ^ SBATCH}")
     # What the shell has put together, with a program that says it.
     said = output("bash", "-c", f"treefarm() {{ echo treefarm \"$@\"; }}; export -f treefarm; SLURM_JOB_ID=1 SLURM_ARRAY_TASK_ID=7 "
-                  f"bash {path} door scene.xml -D open=%d -o f.%04d.exr --error 5%")
-    expect(said.split() == "treefarm launch -- render scene.xml -D open=7 -o f.0007.exr --error 5% --run-dir door/frame.0007 --resume".split(),
+                  f"bash {path} door scene.xml -D open=%d -o shot#2/f.%04d.###.exr --error 5%")
+    expect(said.split() == "treefarm launch -- render scene.xml -D open=7 -o shot#2/f.0007.007.exr --error 5% --run-dir door/frame.0007 --resume".split(),
            f"{path}: starts {said}")
     options.check(path, said.split())
 
@@ -121,7 +122,7 @@ def check_kubernetes(options):
 def check_opencue(options):
     path = DEPLOY / "opencue" / "submit"
     text = output(sys.executable, str(path), "--show", "film", "--shot", "door", "--frames", "1-24", "--folder", "/r/door", "--print",
-                  "--", "/s/door.xml", "-D", "open=%d", "-o", "/r/a b.%04d.exr", "--error", "5%")
+                  "--", "/s/door.xml", "-D", "open=%d", "-o", "/r#1/a b.####.exr", "--error", "5%")
     spec = xml.fromstring(text)
     for node in spec.iter():
         if node.tag in CUE:
@@ -130,7 +131,7 @@ def check_opencue(options):
             expect(-1 not in places and places == sorted(places), f"{path}: <{node.tag}> holds {[child.tag for child in node]}")
     command = spec.findtext("job/layers/layer/cmd")
     words = json.loads(output(sys.executable, "-c", "import json, shlex, sys; print(json.dumps(shlex.split(sys.argv[1])))", command))
-    expect("open=#IFRAME#" in words and "/r/a b.#ZFRAME#.exr" in words, f"{path}: {command}")
+    expect("open=#IFRAME#" in words and "/r#1/a b.#ZFRAME#.exr" in words, f"{path}: {command}")
     options.check(path, words)
 
 
@@ -145,6 +146,7 @@ def check_flamenco(options):
         expect((task["type"], command["name"]) == ("misc", "exec"), f"{path}: {task}")
         words = [command["parameters"]["exe"], *command["parameters"]["args"]]
         expect(words[4] == f"/s/door.{task['name'][-4:]}.xml" and "--resume" in words, f"{path}: {words}")
+        expect(f"/r#1/x.{task['name'][-4:]}.exr" in words, f"{path}: {words}")
         options.check(path, words)
 
 

@@ -56,6 +56,12 @@ class CameraRays {
         double x, y;  ///< film position: [0, 1] over the whole film, beyond it by up to the filter radius
     };
 
+    static Ray ray(const Vec3& origin, const Vec3& direction) {
+        Ray ray{origin, direction};
+        ray.of_camera = true;
+        return ray;
+    }
+
     FilmPoint film_point(int x, int y, const Draw& random) const {
         return {(x + x0_ + 0.5 + double(filter_.sample(random[0]))) / width_,
                 (y + y0_ + 0.5 + double(filter_.sample(random[1]))) / height_};
@@ -69,7 +75,7 @@ class CameraRays {
     }
 
     Ray pinhole(const Imath::V3d& focus) const {
-        return {camera_.origin, Vec3(focus * (1.0 / std::sqrt(focus.dot(focus))))};
+        return ray(camera_.origin, Vec3(focus * (1.0 / std::sqrt(focus.dot(focus)))));
     }
 
     /// Ray from a uniform point of the lens to the point where the pinhole ray meets the focal plane.
@@ -77,7 +83,7 @@ class CameraRays {
         const Vec2 lens = square_to_disk({to_unit(random[2]), to_unit(random[3])});
         const Vec3 shift = camera_.lens_u * lens.x + camera_.lens_v * lens.y;
         const Imath::V3d d = focus - Imath::V3d(shift);
-        return {camera_.origin + shift, Vec3(d * (1.0 / std::sqrt(d.dot(d))))};
+        return ray(camera_.origin + shift, Vec3(d * (1.0 / std::sqrt(d.dot(d)))));
     }
 
     [[gnu::noinline]] Ray through_lens(int x, int y, const PathKey& path) const {
@@ -85,7 +91,7 @@ class CameraRays {
     }
 
     Ray orthographic(const Imath::V3d& point) const {
-        return {Vec3(Imath::V3d(camera_.origin) + point), camera_.parallel};
+        return ray(Vec3(Imath::V3d(camera_.origin) + point), camera_.parallel);
     }
 
     Ray panoramic(int x, int y, const Draw& random) const {
@@ -96,7 +102,7 @@ class CameraRays {
             u += 0.5;
         }
         u -= std::floor(u);
-        return {camera_.origin, camera_.panorama_direction(static_cast<float>(u), static_cast<float>(v))};
+        return ray(camera_.origin, camera_.panorama_direction(static_cast<float>(u), static_cast<float>(v)));
     }
 
     /// Ray of an orthographic or panoramic camera.

@@ -39,7 +39,11 @@ void EmbreeScene::ReleaseScene::operator()(RTCScene scene) const {
 }
 
 EmbreeScene::EmbreeScene(std::vector<Shape> shapes, const std::string& isa, const ShapeMasks& masks, bool robust)
-    : robust_(robust), shapes_(std::move(shapes)), surfaces_(shapes_.size()), error_(std::make_unique<std::string>()) {
+    : robust_(robust),
+      hides_(!masks.hidden.empty()),
+      shapes_(std::move(shapes)),
+      surfaces_(shapes_.size()),
+      error_(std::make_unique<std::string>()) {
     require_isa(isa);
     const LetFloatsBe embree;
     const std::string config = "threads=1,set_affinity=0,hugepages=0,isa=" + isa;
@@ -73,15 +77,16 @@ std::unique_ptr<RTCSceneTy, EmbreeScene::ReleaseScene> EmbreeScene::make_scene()
 }
 
 void EmbreeScene::make_masks(const ShapeMasks& masks) {
-    if (masks.opacity.empty()) return;
-    if (masks.opacity.size() != shapes_.size())
-        throw RunError("there are opacities for " + std::to_string(masks.opacity.size()) + " of " +
-                       std::to_string(shapes_.size()) + " shapes");
+    if (masks.opacity.empty() && masks.hidden.empty()) return;
+    for (const std::size_t size : {masks.opacity.size(), masks.hidden.size()})
+        if (size != 0 && size != shapes_.size())
+            throw RunError("there are masks for " + std::to_string(size) + " of " + std::to_string(shapes_.size()) +
+                           " shapes");
     for (std::uint32_t i = 0; i < shape_count(); ++i) {
-        const FloatInput& opacity = masks.opacity[i];
-        if (!opacity.varies() && !(opacity.value < 1.0f)) continue;
+        const FloatInput opacity = masks.opacity.empty() ? FloatInput(1.0f) : masks.opacity[i];
+        const Mask mask{i, &shapes_[i], opacity, masks.textures, !masks.hidden.empty() && masks.hidden[i]};
         if (opacity.varies() && !masks.textures) throw RunError("an opacity has a texture, but there are no textures");
-        masks_.push_back({i, &shapes_[i], opacity, masks.textures});
+        if (mask.lets_pass() || mask.hidden) masks_.push_back(mask);
     }
     if (!masks_.empty() && !rtcGetDeviceProperty(device_.get(), RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED))
         throw RunError("this Embree was built without filter functions: it cannot render opacity masks");
@@ -118,7 +123,7 @@ void EmbreeScene::attach(RTCScene scene, std::uint32_t id, std::uint32_t index) 
         geometry = instance_geometry(index, *instance);
     } else {
         geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
-        set_user_callbacks(geometry, shape, mask(index));
+        set_user_callbacks(geometry, shape, find_mask(index));
     }
     if (geometry) {
         rtcCommitGeometry(geometry);
@@ -152,7 +157,7 @@ RTCGeometry EmbreeScene::mesh_geometry(std::uint32_t index, Mesh& mesh) {
                                sizeof(Vec3), vertices);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.indices.data(), 0,
                                3 * sizeof(std::uint32_t), triangles);
-    if (const Mask* m = mask(index)) set_mask_filter(geometry, *m);
+    if (const Mask* m = find_mask(index)) set_mask_filter(geometry, *m);
     return geometry;
 }
 

@@ -16,6 +16,9 @@ inline void write_together(float* to, const Vec3& v, float fourth) {
     std::memcpy(to, &four, sizeof four);
 }
 
+/// Embree's ray id of camera rays, by which masks tell them.
+inline constexpr unsigned kCameraRay = 1;
+
 /// Embree's form of a ray.
 inline RTCRay to_embree(const Ray& ray) {
     RTCRay r;
@@ -23,7 +26,7 @@ inline RTCRay to_embree(const Ray& ray) {
     write_together(&r.dir_x, ray.direction, 0.0f);  // the fourth float is time
     r.tfar = ray.length;
     r.mask = ~0u;
-    r.id = 0;
+    r.id = ray.of_camera ? kCameraRay : 0;
     r.flags = 0;
     return r;
 }

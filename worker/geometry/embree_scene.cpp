@@ -28,6 +28,9 @@ void EmbreeScene::intersect_packet(std::span<const Query> queries) const {
     std::fill_n(packet.ray.time, kPacket, 0.0f);
     std::fill_n(packet.ray.mask, kPacket, ~0u);
     std::fill_n(packet.ray.flags, kPacket, 0u);
+    if (hides_) [[unlikely]]
+        for (std::size_t i = 0; i < queries.size(); ++i)
+            packet.ray.id[i] = queries[i].ray->of_camera ? kCameraRay : 0;
     std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
     for (std::size_t i = 0; i < queries.size(); ++i) {
         const Ray& ray = *queries[i].ray;

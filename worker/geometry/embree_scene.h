@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <string>
@@ -25,6 +26,7 @@ namespace treefarm {
 /// Opacity of the shapes that let some rays pass.
 struct ShapeMasks {
     std::vector<FloatInput> opacity;       ///< per shape; empty: all are opaque
+    std::vector<bool> hidden;              ///< per shape: camera rays pass it; empty: none
     const TextureSet* textures = nullptr;  ///< must outlive the scene; nullptr if no opacity is textured
 };
 
@@ -116,9 +118,19 @@ class EmbreeScene {
     double triangle_area(std::uint32_t shape, std::uint32_t primitive) const;
     const Shape& shape(std::uint32_t index) const { return shapes_[index]; }
     /// Whether any shape has a mask.
-    bool masked() const { return !masks_.empty(); }
+    bool masked() const {
+        return std::any_of(masks_.begin(), masks_.end(), [](const Mask& m) { return m.lets_pass(); });
+    }
+    /// Whether camera rays pass a shape.
+    bool hidden(std::uint32_t shape) const {
+        const Mask* const m = hides_ ? find_mask(shape) : nullptr;
+        return m && m->hidden;
+    }
     /// Mask of a shape; nullptr: every ray meets it.
-    const Mask* mask(std::uint32_t shape) const { return find_mask(shape); }
+    const Mask* mask(std::uint32_t shape) const {
+        const Mask* const m = find_mask(shape);
+        return m && m->lets_pass() ? m : nullptr;
+    }
     std::uint32_t shape_count() const { return static_cast<std::uint32_t>(shapes_.size()); }
 
     /// Embree's handle, for benchmarks.
@@ -167,7 +179,7 @@ class EmbreeScene {
     void step_back(Hit& hit, const Ray& ray) const;
     double clearance(const Hit& hit) const;
 
-    const bool robust_;
+    const bool robust_, hides_;
     std::vector<Shape> shapes_;
     std::vector<Surface> surfaces_;
     std::vector<Mask> masks_;  ///< of the masked shapes, in their order

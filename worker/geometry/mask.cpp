@@ -6,6 +6,7 @@
 #include "common/base/hash.h"
 #include "common/base/random.h"
 #include "worker/geometry/embree_api.h"
+#include "worker/geometry/embree_ray.h"
 #include "worker/geometry/surface_detail.h"
 
 namespace treefarm {
@@ -51,6 +52,7 @@ float Mask::opacity_at(std::uint32_t primitive, float b1, float b2, const Vec3& 
 
 bool Mask::accepts(const void* ray, const void* hit) const {
     const RTCHit& h = *static_cast<const RTCHit*>(hit);
+    if (hidden && static_cast<const RTCRay*>(ray)->id == kCameraRay) return false;
     const float value = opacity_at(h.primID, h.u, h.v, {h.Ng_x, h.Ng_y, h.Ng_z});
     if (value >= 1.0f) return true;
     if (value <= 0.0f) return false;

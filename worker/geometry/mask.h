@@ -10,7 +10,7 @@ struct RTCGeometryTy;
 
 namespace treefarm {
 
-/// Mask of a shape that lets some rays pass.
+/// Mask of a shape that lets some rays pass, or those of the camera.
 ///
 /// An opacity other than 0 and 1 is decided by a hash of the ray and the hit, so that the answer is a pure function of
 /// both: equal in every traversal order and in intersect and occluded alike, without state that travels with the ray.
@@ -20,7 +20,10 @@ struct Mask {
     const Shape* shape = nullptr;
     FloatInput opacity{1.0f};
     const TextureSet* textures = nullptr;  ///< not null if the opacity varies
+    bool hidden = false;                   ///< camera rays pass
 
+    /// Whether the opacity lets any ray pass.
+    bool lets_pass() const { return opacity.varies() || opacity.value < 1.0f; }
     /// Opacity at a point, in [0, 1] (NaN counts as 1). Arguments as for shape_uv().
     float opacity_at(std::uint32_t primitive, float b1, float b2, const Vec3& outward) const;
 

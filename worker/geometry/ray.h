@@ -12,6 +12,7 @@ struct Ray {
     Vec3 origin;
     Vec3 direction;  ///< need not be unit
     float length = std::numeric_limits<float>::infinity();
+    bool of_camera = false;  ///< meets the camera: passes hidden emitters (ShapeMasks::hidden)
 };
 
 }  // namespace treefarm

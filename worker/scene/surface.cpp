@@ -5,13 +5,14 @@
 
 namespace treefarm {
 
-void GeneralSurface::look_up(const TraceScene& scene, const Hit& hit, std::int32_t material, bool back,
+void GeneralSurface::look_up(const TraceScene& scene, const Hit& hit, std::int32_t material, bool back, bool flat,
                              Scratch& scratch) {
     assert(scene.effects().textures || scene.effects().bump || scene.effects().anisotropy);
     if (!(wo_.z > 0.0f)) return;
     ShadingPoint point;
     point.wo = wo_;
     point.mirrored = back;
+    point.flat = flat;
     MeshPoint on_mesh;
     if (scene.textures().reads_meshes()) {
         on_mesh = scene.geometry().mesh_point(hit);

@@ -29,6 +29,7 @@ class DiffuseSurface {
     const Vec3& ng() const { return hit_.ng; }
     /// Shading normal on wo's side.
     Vec3 front() const { return wo_.z < 0.0f ? -frame_.n : frame_.n; }
+    Vec3 bent_normal() const { return front(); }
     static constexpr bool smooth() { return true; }
     static constexpr bool evaluate_late() { return false; }
     static constexpr bool transmits() { return false; }
@@ -51,7 +52,8 @@ class GeneralSurface {
     using Scratch = BsdfScratch;
     static Scratch make_scratch(const TraceScene& scene) { return scene.materials().make_scratch(); }
 
-    GeneralSurface(const TraceScene& scene, const Hit& hit, const Vec3& outgoing, Scratch& scratch)
+    /// `flat`: without bump and normal maps.
+    GeneralSurface(const TraceScene& scene, const Hit& hit, const Vec3& outgoing, Scratch& scratch, bool flat = false)
         : frame_(hit.ns), wo_(frame_.to_local(outgoing)), ng_(hit.ng) {
         const bool back = wo_.z < 0.0f;
         if (back) {
@@ -62,7 +64,7 @@ class GeneralSurface {
         const MaterialSet::Side& side = scene.materials().side(hit.shape, back);
         bsdf_ = side.bsdf;
         lobes_ = side.lobes;
-        if (!bsdf_ && side.material != kNone) look_up(scene, hit, side.material, back, scratch);
+        if (!bsdf_ && side.material != kNone) look_up(scene, hit, side.material, back, flat, scratch);
     }
 
     /// Prefetches the data that a hit's material will look up.
@@ -84,6 +86,8 @@ class GeneralSurface {
     bool evaluate_late() const { return lobes_ & kWideLobe; }
     /// Shading normal on wo's side.
     const Vec3& front() const { return frame_.n; }
+    /// Normal that the BSDF scatters about, with bump and normal maps, on wo's side.
+    Vec3 bent_normal() const { return black() ? front() : frame_.to_world(shading_normal_of(*bsdf_)); }
     bool transmits() const { return lobes_ & kTransmittingLobe; }
     /// Whether the sampled directions depend on wo.
     bool view_dependent() const { return lobes_ & kViewLobe; }
@@ -99,7 +103,8 @@ class GeneralSurface {
 
   private:
     static void prefetch(const TraceScene& scene, const Hit& hit, std::int32_t material);
-    void look_up(const TraceScene& scene, const Hit& hit, std::int32_t material, bool back, Scratch& scratch);
+    void look_up(const TraceScene& scene, const Hit& hit, std::int32_t material, bool back, bool flat,
+                 Scratch& scratch);
 
     const Bsdf* bsdf_;
     Frame frame_;

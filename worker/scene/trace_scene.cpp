@@ -38,6 +38,18 @@ std::vector<FloatInput> shape_opacity(const Scene& scene) {
     return opacity;
 }
 
+/// Shapes that camera rays pass since they are hidden emitters; empty if there are none.
+std::vector<bool> hidden_shapes(const Scene& scene, const Job& job) {
+    std::vector<bool> hidden;
+    if (!job.integrator.hide_emitters || !scene.camera.passes_hidden_emitters) return hidden;
+    for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
+        if (scene.shapes[i].emitter == kNone) continue;
+        hidden.resize(scene.shapes.size());
+        hidden[i] = true;
+    }
+    return hidden;
+}
+
 std::optional<MaterialSet> make_materials(const Scene& scene, const Job& job, const TextureSet& textures) {
     if (traced_plainly(scene, job)) return std::nullopt;
     return std::optional<MaterialSet>(std::in_place, scene, textures);
@@ -45,9 +57,10 @@ std::optional<MaterialSet> make_materials(const Scene& scene, const Job& job, co
 
 }  // namespace
 
-TraceScene::TraceScene(Scene scene, const Job& job) : TraceScene(std::move(scene), shape_opacity(scene), job) {}
+TraceScene::TraceScene(Scene scene, const Job& job)
+    : TraceScene(std::move(scene), {shape_opacity(scene), hidden_shapes(scene, job)}, job) {}
 
-TraceScene::TraceScene(Scene&& scene, const std::vector<FloatInput>& opacity, const Job& job)
+TraceScene::TraceScene(Scene&& scene, ShapeMasks masks, const Job& job)
     : effects_(find_scene_effects(scene, job)),
       film_(scene.film),
       camera_(scene.camera, scene.film),
@@ -55,7 +68,8 @@ TraceScene::TraceScene(Scene&& scene, const std::vector<FloatInput>& opacity, co
       textures_(std::move(scene.textures), std::move(scene.images)),
       plain_diffuse_(traced_plainly(scene, job) ? diffuse_bsdfs(scene) : std::vector<PlainDiffuse>()),
       materials_(make_materials(scene, job, textures_)),
-      geometry_(textures_.arranged(std::move(scene.shapes)), job.farm.isa, {opacity, &textures_}, job.farm.robust),
+      geometry_(textures_.arranged(std::move(scene.shapes)), job.farm.isa,
+                {std::move(masks.opacity), std::move(masks.hidden), &textures_}, job.farm.robust),
       emitters_(scene.emitters, geometry_, bounds_, &textures_, job.integrator.light_selection) {
     assert(effects_.lens == camera_.has_lens());
     assert(effects_.masks == geometry_.masked());

@@ -36,8 +36,8 @@ class TraceScene {
     const MaterialSet& materials() const { return *materials_; }
 
   private:
-    /// `opacity` as in ShapeMasks. Moves the scene's parts out.
-    TraceScene(Scene&& scene, const std::vector<FloatInput>& opacity, const Job& job);
+    /// `masks`: without textures. Moves the scene's parts out.
+    TraceScene(Scene&& scene, ShapeMasks masks, const Job& job);
 
     SceneEffects effects_;
     Film film_;

@@ -17,6 +17,7 @@ struct BlendBsdf {
 
     LobeBits lobes() const;
     float refraction() const;
+    Vec3 shading_normal() const;
     inline BsdfValue value(const Vec3& wo, const Vec3& wi) const;
     inline BsdfSample sample(const Vec3& wo, const BsdfRandom& random) const;
 };

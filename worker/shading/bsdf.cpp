@@ -21,6 +21,26 @@ float refraction_of(const Bsdf& bsdf) {
     });
 }
 
+Vec3 shading_normal_of(const Bsdf& bsdf) {
+    return bsdf.visit([](const auto& b) -> Vec3 {
+        if constexpr (requires { b.shading_normal(); })
+            return b.shading_normal();
+        else if constexpr (requires { b.layer; })
+            return shading_normal_of(*b.layer.beneath);
+        else
+            return {0.0f, 0.0f, 1.0f};
+    });
+}
+
+Vec3 BlendBsdf::shading_normal() const {
+    const Vec3 a = shading_normal_of(*first), b = shading_normal_of(*second);
+    return a == b ? a : normalize(a * (1.0f - weight) + b * weight);
+}
+
+Vec3 OrientedBsdf::shading_normal() const {
+    return to_outer(shading_normal_of(*inner));
+}
+
 LobeBits BlendBsdf::lobes() const {
     return static_cast<LobeBits>(lobes_of(*first) | lobes_of(*second));
 }

@@ -98,6 +98,10 @@ LobeBits lobes_of(const Bsdf& bsdf);
 /// For a blend, that of the first part that refracts.
 float refraction_of(const Bsdf& bsdf);
 
+/// Unit normal that a BSDF scatters about, in the frame of its surface: (0, 0, 1) unless a bump or normal map tilts it.
+/// Of a blend the mean of its parts' normals; of a coat that of the BSDF beneath it.
+Vec3 shading_normal_of(const Bsdf& bsdf);
+
 inline BsdfValue BlendBsdf::value(const Vec3& wo, const Vec3& wi) const {
     const BsdfValue a = first->value(wo, wi), b = second->value(wo, wi);
     return {a.f_cos * (1.0f - weight) + b.f_cos * weight, a.pdf * (1.0f - weight) + b.pdf * weight};

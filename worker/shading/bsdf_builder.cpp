@@ -40,7 +40,9 @@ OrientedBsdf oriented(const Bsdf* inner, const Vec3& n, const Vec3& along) {
 
 /// A shading point transformed into the frame of an oriented BSDF.
 ShadingPoint seen_in(const OrientedBsdf& frame, const ShadingPoint& point) {
-    return {point, frame.to_inner(point.dp_du), frame.to_inner(point.dp_dv), frame.to_inner(point.wo), point.mirrored};
+    return {
+        point,     frame.to_inner(point.dp_du), frame.to_inner(point.dp_dv), frame.to_inner(point.wo), point.mirrored,
+        point.flat};
 }
 
 /// Texture of a material's first input: its main colour, or a blend's weight.
@@ -169,7 +171,7 @@ const Bsdf* BsdfBuilder::described(std::int32_t index, bool back, const ShadingP
         slot = &inner;
         inside = seen_in(frame, inside);
     };
-    if (material.detail.any()) orient(tilted_normal(material.detail, point), material.detail.shadowed);
+    if (material.detail.any() && !point.flat) orient(tilted_normal(material.detail, point), material.detail.shadowed);
     if (facts_[static_cast<std::size_t>(index)].anisotropic) orient(Vec3(0.0f, 0.0f, 1.0f), false);
     *slot = leaf(index, back, inside, nodes);
     return &outer;

@@ -21,6 +21,7 @@ struct ShadingPoint : TexturePoint {
     Vec3 dp_du{1.0f, 0.0f, 0.0f}, dp_dv{0.0f, 1.0f, 0.0f};  ///< in the shading frame
     Vec3 wo{0.0f, 0.0f, 1.0f};                              ///< in the shading frame, wo.z > 0
     bool mirrored = false;                                  ///< the frame's normal is the reverse of the surface's
+    bool flat = false;                                      ///< bump and normal maps are left out
 };
 
 /// Storage for the inputs that one BSDF keeps apart (BsdfNeeds::Kept), of any kind.

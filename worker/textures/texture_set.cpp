@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "common/base/prefetch.h"
@@ -87,6 +88,33 @@ Rgb procedural(const CheckerboardTexture& board, const TexturePoint& point) {
     const Vec2 at = transformed(board.uv, point.uv);
     return in_upper_half(at.x) == in_upper_half(at.y) ? board.color0 : board.color1;
 }
+Rgb procedural(const GridTexture& grid, const TexturePoint& point) {
+    const Vec2 at = transformed(grid.uv, point.uv);
+    const auto on_line = [&](float x) {
+        x = bounded(x);
+        x -= std::floor(x);
+        return std::min(x, 1.0f - x) < grid.line_width;
+    };
+    return on_line(at.x) || on_line(at.y) ? grid.color1 : grid.color0;
+}
+Rgb procedural(const WireframeTexture& wires, const TexturePoint& point) {
+    if (!point.on_mesh || !point.on_mesh->mesh) return wires.interior;
+    const MeshPoint& at = *point.on_mesh;
+    const std::uint32_t* corner = at.mesh->indices.data() + 3 * std::size_t(at.triangle);
+    const Vec3 &v0 = at.mesh->positions[corner[0]], e1 = at.mesh->positions[corner[1]] - v0,
+               e2 = at.mesh->positions[corner[2]] - v0;
+    const Vec3 p = e1 * at.b1 + e2 * at.b2;  // from v0
+    float least = std::numeric_limits<float>::infinity();
+    for (const auto& [from, edge] : {std::pair(Vec3(0.0f), e1), std::pair(Vec3(0.0f), e2), std::pair(e1, e2 - e1)}) {
+        const Vec3 across = cross(p - from, edge);
+        least = std::min(least, dot(across, across) / dot(edge, edge));
+    }
+    const float begin = wires.line_width * (1.0f - wires.step_width), distance = std::sqrt(least);
+    if (!(distance > begin)) return wires.edge;
+    if (distance >= wires.line_width) return wires.interior;
+    const float x = (distance - begin) / (wires.line_width - begin);
+    return wires.edge + (wires.interior - wires.edge) * (x * x * (3.0f - 2.0f * x));
+}
 Rgb procedural(const BitmapTexture&, const TexturePoint&) {
     return Rgb(0.0f);  // looked up before
 }
@@ -158,6 +186,7 @@ TextureSet::TextureSet(std::vector<Texture> textures, std::vector<TextureImage> 
     : textures_(std::move(textures)), images_(std::move(images)) {
     for (std::size_t i = 0; i < textures_.size(); ++i) {
         const auto* texture = std::get_if<MeshAttributeTexture>(&textures_[i].kind);
+        reads_meshes_ = reads_meshes_ || std::holds_alternative<WireframeTexture>(textures_[i].kind);
         if (!texture) continue;
         reads_meshes_ = true;
         const auto found = std::find(attribute_names_.begin(), attribute_names_.end(), texture->name);
@@ -207,7 +236,7 @@ Vec2 TextureSet::gradient(std::int32_t texture, const TexturePoint& at) const {
     if (std::holds_alternative<MeshAttributeTexture>(kind))
         return gradient_over(slots_[static_cast<std::size_t>(texture)], at.on_mesh);
     const auto* bitmap = std::get_if<BitmapTexture>(&kind);
-    if (!bitmap) return Vec2(0.0f);  // a checkerboard has steps only
+    if (!bitmap) return Vec2(0.0f);  // the others have steps, or count as flat
     const Vec2& uv = at.uv;
     const TextureImage& image = images_[static_cast<std::size_t>(bitmap->image)];
     // Half a texel, in the coordinates before the transform.

@@ -10,4 +10,7 @@ namespace treefarm {
 /// UTF-8 become "?". For text from files and other hosts.
 std::string printable(std::string_view text);
 
+/// printable() for each line of a text.
+std::string printable_lines(std::string_view text);
+
 }  // namespace treefarm

@@ -94,6 +94,11 @@ inline constexpr auto kMaterialEffects = std::tuple(
     effect_of_kind(
         {"checkerboards", "materials", "squares of two colours", "a texture in use is a checkerboard", "no memory"},
         EffectFamily::textures, part_of("textures")),
+    effect_of_kind({"grids", "materials", "lines of one colour on another", "a texture in use is a grid", "no memory"},
+                   EffectFamily::textures, part_of("textures")),
+    effect_of_kind({"wireframes", "materials", "edges of triangles in another colour than their inside",
+                    "a texture in use is a wireframe", "no memory"},
+                   EffectFamily::textures, part_of("textures")),
     effect_of_kind({"mesh_attributes", "materials", "colours and numbers that meshes bring along",
                     "a texture in use is a mesh attribute", "12 bytes per vertex or triangle of meshes that use it"},
                    EffectFamily::textures, part_of("textures")),

@@ -14,7 +14,7 @@ namespace treefarm {
 /// Version of results: to be raised by an intentional change of what equal jobs and scenes render to, so that files of
 /// earlier builds are refused. Changes of constants of policy.h are detected without it. tests/tools/same_images shows
 /// whether images have changed.
-inline constexpr int kResults = 1;
+inline constexpr int kResults = 2;
 
 /// The render that a resolved.toml describes: its section [experiment].
 struct Experiment {

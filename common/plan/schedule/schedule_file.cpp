@@ -8,6 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/base/text/parse_text.h"
+#include "common/config/toml_settings.h"
 
 namespace treefarm {
 namespace {
@@ -121,7 +122,7 @@ std::string write_schedule(std::span<const PassPlan> passes) {
 std::vector<PassPlan> parse_schedule(const std::string& toml, const std::string& name, const Resolved& job) {
     ScheduleReader reader(name, job);
     try {
-        return reader.read(toml::parse(toml, std::string_view(name)));
+        return reader.read(parse_toml(toml, name));
     } catch (const toml::parse_error& error) {
         throw InputError(reader.location(error.source()), "this is not TOML: " + one_line(error.description()),
                          "write [[pass]] tables with key = value lines");

@@ -55,6 +55,7 @@ namespace treefarm {
 ///     image(std::int32_t&)                        index of an image
 ///     choice(name, Enum&, last)                   as of a material
 ///     color(name, Rgb&)                           a finite colour
+///     extent(name, float&)                        a length, 0 or more
 ///     coordinates(UvTransform&)                   transform of texture coordinates
 ///     mesh_attribute(std::string&)                name of the attribute of the mesh that it shows
 ///
@@ -81,6 +82,7 @@ struct IgnoreFields {
     void shape(const auto&) {}
     void rule(bool, const char*, const char*) {}
     void color(const char*, const auto&) {}
+    void extent(const char*, const auto&) {}
     void coordinates(const auto&) {}
     void mesh_attribute(const auto&) {}
     void point(const char*, const auto&) {}

@@ -57,6 +57,7 @@ class DescribeFields {
     void shape(std::int32_t) { add("shape", "the one that shines"); }
 
     void color(const char* name, const Rgb&) { add(name, "colour"); }
+    void extent(const char* name, float) { add(name, "0 or more"); }
     void coordinates(const UvTransform&) { add("coordinates", "two rows of three numbers"); }
     void mesh_attribute(const std::string&) { add("attribute", "name"); }
 

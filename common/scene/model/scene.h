@@ -30,6 +30,9 @@ struct Camera {
     /// Panorama: all directions, by longitude across and latitude down; `across`, `down` and `corner` are orthogonal,
     /// of length 1, and point to the left, upwards and forwards.
     bool panoramic = false;
+    /// Whether hidden area emitters (integrator.hide_emitters) let camera rays pass, as Mitsuba 2 and 3 have it; if
+    /// not, they are black.
+    bool passes_hidden_emitters = false;
 
     /// Direction of length 1 for the film position (u, v) in [0, 1]^2 of a panorama, v downwards.
     Vec3 panorama_direction(float u, float v) const {

@@ -50,6 +50,7 @@ class PutFields {
 
     void color(const char*, const Rgb& value) { put_vector(out_, value); }
     void mesh_attribute(const std::string& name) { out_.put_string(name); }
+    void extent(const char*, float value) { out_.put(value); }
     void coordinates(const UvTransform& uv) {
         put_vector(out_, uv.u_row);
         put_vector(out_, uv.v_row);
@@ -130,6 +131,7 @@ class GetFields {
 
     void color(const char*, Rgb& value) { value = get_vector<Rgb>(in_); }
     void mesh_attribute(std::string& name) { name = in_.get_string(); }
+    void extent(const char*, float& value) { value = in_.get<float>(); }
     void coordinates(UvTransform& uv) {
         uv.u_row = get_vector<Vec3>(in_);
         uv.v_row = get_vector<Vec3>(in_);

@@ -17,7 +17,7 @@ namespace {
 using namespace packed;
 
 constexpr std::uint32_t kMagic = 0x43534654;  // "TFSC"
-constexpr std::uint32_t kVersion = 8;
+constexpr std::uint32_t kVersion = 9;
 
 /// Calls f for each origin of a part: f(std::string& file) for images, f(Location&) for others.
 template <class AnyScene, class F>
@@ -52,6 +52,7 @@ Camera get_camera(ByteReader& in) {
                     &camera.parallel})
         *v = get_vector<Vec3>(in);
     camera.panoramic = get_flag(in, "panoramic camera");
+    camera.passes_hidden_emitters = get_flag(in, "transparency of hidden emitters");
     return camera;
 }
 
@@ -154,6 +155,7 @@ Bytes encode_scene(const Scene& scene) {
          {camera.origin, camera.corner, camera.across, camera.down, camera.lens_u, camera.lens_v, camera.parallel})
         put_vector(out, v);
     out.put<std::uint8_t>(camera.panoramic);
+    out.put<std::uint8_t>(camera.passes_hidden_emitters);
     put_film(out, scene.film);
     const std::uint64_t content = out.size();
     for_each_origin(scene, PutOrigins{out});

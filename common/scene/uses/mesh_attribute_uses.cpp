@@ -24,30 +24,36 @@ std::string attribute_of(const Texture& texture) {
     return visitor.found;
 }
 
-std::vector<std::set<std::string>> mesh_attribute_uses(const Scene& scene) {
-    using Names = std::set<std::string>;
-    const auto add = [&](Names& names, std::int32_t index) {
-        const Texture* texture = at(scene.textures, index);
-        const std::string name = texture ? attribute_of(*texture) : std::string();
-        if (!name.empty()) names.insert(name);
-    };
+std::vector<std::set<std::int32_t>> textures_of_shapes(const Scene& scene) {
+    using Textures = std::set<std::int32_t>;
     // Parts of a material have smaller indices.
-    std::vector<Names> materials(scene.materials.size());
+    std::vector<Textures> materials(scene.materials.size());
     for (std::size_t i = 0; i < materials.size(); ++i) {
-        for_each_texture(scene.materials[i], [&](std::int32_t texture) { add(materials[i], texture); });
+        for_each_texture(scene.materials[i], [&](std::int32_t texture) { materials[i].insert(texture); });
         for_each_part(scene.materials[i], [&](std::int32_t part) {
             if (part >= 0 && static_cast<std::size_t>(part) < i)
                 materials[i].insert(materials[static_cast<std::size_t>(part)].begin(),
                                     materials[static_cast<std::size_t>(part)].end());
         });
     }
-    std::vector<Names> shapes(scene.shapes.size());
+    std::vector<Textures> shapes(scene.shapes.size());
     for (std::size_t i = 0; i < shapes.size(); ++i) {
-        if (const Names* names = at(materials, scene.shapes[i].material)) shapes[i] = *names;
+        if (const Textures* textures = at(materials, scene.shapes[i].material)) shapes[i] = *textures;
         if (const Emitter* emitter = at(scene.emitters, scene.shapes[i].emitter))
-            for_each_texture(*emitter, [&](std::int32_t texture) { add(shapes[i], texture); });
+            for_each_texture(*emitter, [&](std::int32_t texture) { shapes[i].insert(texture); });
     }
     return shapes;
+}
+
+std::vector<std::set<std::string>> mesh_attribute_uses(const Scene& scene) {
+    std::vector<std::set<std::string>> names;
+    for (const std::set<std::int32_t>& textures : textures_of_shapes(scene)) {
+        names.emplace_back();
+        for (const std::int32_t index : textures)
+            if (const Texture* texture = at(scene.textures, index))
+                if (const std::string name = attribute_of(*texture); !name.empty()) names.back().insert(name);
+    }
+    return names;
 }
 
 void remove_unused_attributes(Scene& scene) {

@@ -12,6 +12,9 @@ namespace treefarm {
 /// Name of the mesh attribute that a texture shows; empty for other textures.
 std::string attribute_of(const Texture& texture);
 
+/// Per shape: indices of the textures that its material, with parts, and its emitter use. Indices may be out of range.
+std::vector<std::set<std::int32_t>> textures_of_shapes(const Scene& scene);
+
 /// Per shape: names of the mesh attributes that its material, with parts, and its emitter need. Indices may be out of
 /// range.
 std::vector<std::set<std::string>> mesh_attribute_uses(const Scene& scene);

@@ -24,6 +24,8 @@ struct Finding {
 
     /// One line: "file:line:col: severity: what; cure".
     std::string text() const;
+    /// text() without the severity, for where that is said already.
+    std::string sentence() const;
 };
 
 const char* name_of(Finding::Severity severity);

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "common/scene/uses/emitter_uses.h"
+#include "common/scene/uses/material_traits.h"
 #include "coordinator/input/check/validation.h"
 
 namespace treefarm::validation {
@@ -174,6 +175,13 @@ bool is_flat(const Mesh& mesh) {
     return true;
 }
 
+bool lacks_tangents(const Scene& scene, const Shape& shape) {
+    const auto* mesh = std::get_if<Mesh>(&shape.geometry);
+    return mesh && mesh->uvs.empty() && mesh->triangle_count() > 1 && shape.material >= 0 &&
+           static_cast<std::size_t>(shape.material) < scene.materials.size() &&
+           material_traits(scene, shape.material).anisotropic;
+}
+
 void check_shapes(Scene& scene, std::vector<Warning>& warnings) {
     if (scene.group_count < 0 || static_cast<std::size_t>(scene.group_count) > scene.shapes.size())
         throw InputError(Location{}, "the scene has more groups than shapes", "");
@@ -186,6 +194,10 @@ void check_shapes(Scene& scene, std::vector<Warning>& warnings) {
             if (shape.group != kNone && (shape.group < 0 || shape.group >= scene.group_count))
                 refuse(shape, "belongs to a group that does not exist", "");
             check_links(shape, i, scene);
+            if (lacks_tangents(scene, shape))
+                warnings.push_back({shape.where, (shape.name.empty() ? "the shape" : "shape \"" + shape.name + "\"") +
+                                                     " is anisotropic, but its mesh has no texture coordinates: "
+                                                     "highlights follow the edges of its triangles"});
             ShapeCheck(shape, groups, warnings).run();
             if (shape.group != kNone) groups[static_cast<std::size_t>(shape.group)].extendBy(own_box(shape));
         }

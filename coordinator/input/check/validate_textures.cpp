@@ -67,6 +67,10 @@ class TextureCheck {
             refuse("the " + title() + " has a " + name + " that is not finite",
                    std::string("give finite ") + name + "s");
     }
+    void extent(const char* name, float value) const {
+        if (!(value >= 0.0f) || !std::isfinite(value))
+            refuse("the " + title() + " has a " + name + " that is negative or not finite", "give 0 or more");
+    }
     void coordinates(const UvTransform& uv) const {
         if (!is_finite(uv.u_row) || !is_finite(uv.v_row))
             refuse("the transformation of texture coordinates is not finite", "check the texture's scale and offset");

@@ -40,7 +40,11 @@ bool is_flat(const Mesh& mesh);
 /// triangle.
 void check_mesh_attributes(Scene& scene);
 
-/// Removes triangles without area, with a warning.
+/// Whether a shape is a mesh without texture coordinates whose material is anisotropic: its highlights then follow the
+/// edges of triangles.
+bool lacks_tangents(const Scene& scene, const Shape& shape);
+
+/// Removes triangles without area, and names anisotropic meshes without texture coordinates, with warnings.
 void check_shapes(Scene& scene, std::vector<Warning>& warnings);
 
 void check_emitters(const Scene& scene, const std::vector<ValueRange>& images, const std::vector<ValueRange>& textures);

@@ -136,6 +136,10 @@ EncodedImage read_encoded_image(const std::filesystem::path& path, const std::st
         refuse(claim, "reduce its size, or check whether it is damaged");
     if (pixels / most_pixels_per_byte(image.format) > image.bytes.size())
         refuse(claim + ", which its " + std::to_string(image.bytes.size()) + " bytes cannot hold", again);
+    constexpr std::size_t kLarge = std::size_t{1} << 26, kMostPacking = 100;
+    if (pixels > kLarge && pixels / kMostPacking > image.bytes.size())
+        refuse(claim + " in " + std::to_string(image.bytes.size()) + " bytes: all but empty, and slow to read",
+               "reduce its size");
     if (image.format == ImageFormat::png && is_cut_png(image.bytes))
         refuse("cannot be decoded (it is cut short)", again);
     return image;

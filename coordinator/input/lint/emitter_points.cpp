@@ -32,6 +32,18 @@ V3d direction_of_cone(const LightCone& cone, double u, double v) {
     return (axis + (x * std::cos(2 * M_PI * v) + y * std::sin(2 * M_PI * v)) * spread).normalized();
 }
 
+std::pair<V3d, V3d> camera_ray(const Scene& scene, double u, double v) {
+    const Camera& camera = scene.camera;
+    const Film& film = scene.film;
+    const double x = (film.crop.x + u * film.width) / film.whole_width();
+    const double y = (film.crop.y + v * film.height) / film.whole_height();
+    const V3d point = V3d(camera.corner) + V3d(camera.across) * x + V3d(camera.down) * y, origin(camera.origin);
+    if (camera.panoramic)
+        return {origin, V3d(camera.panorama_direction(static_cast<float>(x), static_cast<float>(y))).normalized()};
+    if (camera.is_orthographic()) return {origin + point, V3d(camera.parallel)};
+    return {origin, point.normalized()};
+}
+
 namespace {
 
 constexpr std::size_t kMostEmitters = 16;  ///< limit of examined emitters: a scene with more is hardly black by mistake

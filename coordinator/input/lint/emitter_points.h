@@ -23,6 +23,9 @@ Imath::V3d direction_of_hemisphere(const Imath::V3d& axis, double u, double v);
 /// Uniform direction within a cone.
 Imath::V3d direction_of_cone(const LightCone& cone, double u, double v);
 
+/// Origin and unit direction of the camera ray through a point of the film, in [0, 1]^2 of its window.
+std::pair<Imath::V3d, Imath::V3d> camera_ray(const Scene& scene, double u, double v);
+
 /// A point of a surface with its normal.
 using SurfacePoint = std::pair<Imath::V3d, Imath::V3d>;
 

@@ -14,11 +14,13 @@ struct Ray {
     V3d origin, direction;  ///< not of length 1 within instances
     double nearest = std::numeric_limits<double>::infinity();
     bool behind = false;  ///< nearest hit so far is from behind
+    V3d normal;           ///< of the nearest hit so far
 
-    bool take_if_nearer(double t, const V3d& normal) {
+    bool take_if_nearer(double t, const V3d& n) {
         if (!(t > 0 && t < nearest)) return false;
         nearest = t;
-        behind = direction.dot(normal) > 0;
+        behind = direction.dot(n) > 0;
+        normal = n;
         return true;
     }
 };
@@ -115,13 +117,15 @@ FirstHitSearch::FirstHitSearch(const Scene& scene) : scene_(scene) {
 }
 
 std::optional<FirstHit> FirstHitSearch::find(const V3d& origin, const V3d& direction) const {
-    Ray ray{origin, direction};
+    Ray ray;
+    ray.origin = origin;
+    ray.direction = direction;
     std::optional<FirstHit> hit;
     const auto try_shape = [&](Ray& in_its_space, std::size_t i) {
         if (boxes_[i].isEmpty() || misses(in_its_space, boxes_[i])) return;
         if (std::visit([&](const auto& geometry) { return intersect(in_its_space, geometry); },
                        scene_.shapes[i].geometry))
-            hit = FirstHit{in_its_space.nearest, i, in_its_space.behind};
+            hit = FirstHit{in_its_space.nearest, i, in_its_space.behind, in_its_space.normal};
     };
     for (std::size_t i = 0; i < scene_.shapes.size(); ++i) {
         const Shape& shape = scene_.shapes[i];
@@ -135,6 +139,7 @@ std::optional<FirstHit> FirstHitSearch::find(const V3d& origin, const V3d& direc
         from_world_[i].multDirMatrix(direction, moved.direction);
         for (std::size_t part = 0; part < scene_.shapes.size(); ++part)
             if (scene_.shapes[part].group == instance->group) try_shape(moved, part);
+        if (moved.nearest < ray.nearest) from_world_[i].transposed().multDirMatrix(moved.normal, hit->normal);
         ray.nearest = moved.nearest;
     }
     return hit;

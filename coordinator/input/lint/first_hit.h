@@ -13,6 +13,7 @@ struct FirstHit {
     double distance = 0;
     std::size_t shape = 0;  ///< index of the shape; for an instance, of the member of its group
     bool behind = false;    ///< hit on the side opposite to the normal
+    Imath::V3d normal;      ///< of the surface there, of any length and side
 };
 
 /// Intersects rays with shapes one by one, without a hierarchy: for a few hundred rays. Masks are ignored. The scene's

@@ -23,17 +23,6 @@ constexpr int kMostPanes = 8;            ///< panes of glass that a camera ray p
 constexpr double kNearly = 1 - 1e-3;     ///< part of the way to an emitter: a hit beyond it is the emitter
 constexpr double kStep = 1e-5;           ///< offset from a surface, over the scene's size
 
-/// Camera ray through a point of the film, in [0, 1]^2 of its window.
-std::pair<V3d, V3d> camera_ray(const Camera& camera, const Film& film, double u, double v) {
-    const double x = (film.crop.x + u * film.width) / film.whole_width();
-    const double y = (film.crop.y + v * film.height) / film.whole_height();
-    const V3d point = V3d(camera.corner) + V3d(camera.across) * x + V3d(camera.down) * y, origin(camera.origin);
-    if (camera.panoramic)
-        return {origin, V3d(camera.panorama_direction(static_cast<float>(x), static_cast<float>(y))).normalized()};
-    if (camera.is_orthographic()) return {origin + point, V3d(camera.parallel)};
-    return {origin, point.normalized()};
-}
-
 bool is_flat(const Shape& shape) {
     const auto* const mesh = std::get_if<Mesh>(&shape.geometry);
     return mesh ? mesh->triangle_count() <= 2 : std::holds_alternative<Disk>(shape.geometry);
@@ -48,7 +37,7 @@ class Looking {
         for (int row = 0; row < kRows; ++row)
             for (int column = 0; column < kColumns; ++column) {
                 const auto [origin, direction] =
-                    camera_ray(scene_.camera, scene_.film, (column + 0.5) / kColumns, (row + 0.5) / kRows);
+                    linting::camera_ray(scene_, (column + 0.5) / kColumns, (row + 0.5) / kRows);
                 if (const auto seen = seen_from(origin, direction)) from(*seen, row * kColumns + column);
             }
         const double local = reach_.free + reach_.glass + reach_.blocked, all = local + reach_.infinity;

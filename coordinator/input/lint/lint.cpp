@@ -138,6 +138,11 @@ std::string Finding::text() const {
            (cure.empty() ? "" : "; " + cure);
 }
 
+std::string Finding::sentence() const {
+    const std::string location = where.text();
+    return (location.empty() ? "" : location + ": ") + what + (cure.empty() ? "" : "; " + cure);
+}
+
 std::vector<Finding> lint(const Scene& scene) {
     std::vector<Finding> findings;
     linting::lint_shapes(scene, findings);

@@ -5,6 +5,7 @@
 #include "common/scene/uses/material_traits.h"
 #include "coordinator/input/lint/emitter_points.h"
 #include "coordinator/input/lint/first_hit.h"
+#include "coordinator/input/lint/hidden_lights.h"
 #include "coordinator/input/lint/lint.h"
 
 namespace treefarm::linting {
@@ -25,6 +26,7 @@ struct HitCounts {
     int glass = 0;   ///< smooth, transmitting surfaces
     int close = 0;
     int inside = 0;  ///< backs of any kind
+    int own = 0;     ///< on the shape that they come from
     std::size_t shape = 0;
     bool one_shape = true;  ///< whether all hits are of `shape`
 
@@ -41,8 +43,12 @@ class Darkness {
         std::vector<HitCounts> lights;
         for (const Emitter& emitter : scene_.emitters)
             lights.push_back(from_emitter(emitter));
-        for (std::size_t i = 0; i < lights.size(); ++i)
+        HiddenLights hidden(scene_, search_);
+        for (std::size_t i = 0; i < lights.size(); ++i) {
+            const std::size_t found = findings_.size();
             judge_emitter(scene_.emitters[i], lights[i]);
+            if (found == findings_.size()) hidden.judge(scene_.emitters[i], findings_);
+        }
         const HitCounts seen = from_camera();
         if (seen.hits < seen.rays && surrounded) return;
         if (seen.hits == 0)
@@ -73,7 +79,7 @@ class Darkness {
         return shape.material == kNone ? MaterialTraits{} : material_traits(scene_, shape.material);
     }
 
-    void cast(const V3d& origin, const V3d& direction, HitCounts& counts) const {
+    void cast(const V3d& origin, const V3d& direction, HitCounts& counts, std::int32_t from = kNone) const {
         const auto hit = search_.find(origin, direction);
         ++counts.rays;
         if (!hit) return;
@@ -82,6 +88,7 @@ class Darkness {
         counts.one_shape = counts.one_shape && (counts.hits == 0 || counts.shape == hit->shape);
         counts.shape = hit->shape;
         ++counts.hits;
+        counts.own += static_cast<std::int64_t>(hit->shape) == from ? 1 : 0;
         const bool is_open = t.masked || t.lobes.transmits();
         counts.inside += hit->behind && !is_open ? 1 : 0;
         counts.behind += hit->behind && !is_open && !t.twosided ? 1 : 0;
@@ -92,21 +99,10 @@ class Darkness {
 
     HitCounts from_camera() const {
         HitCounts counts;
-        const Camera& camera = scene_.camera;
-        const Film& film = scene_.film;
         for (int row = 0; row < kRows; ++row)
             for (int column = 0; column < kColumns; ++column) {
-                const double x = (film.crop.x + (column + 0.5) / kColumns * film.width) / film.whole_width();
-                const double y = (film.crop.y + (row + 0.5) / kRows * film.height) / film.whole_height();
-                const V3d point = V3d(camera.corner) + V3d(camera.across) * x + V3d(camera.down) * y;
-                if (camera.panoramic)
-                    cast(V3d(camera.origin),
-                         V3d(camera.panorama_direction(static_cast<float>(x), static_cast<float>(y))).normalized(),
-                         counts);
-                else if (camera.is_orthographic())
-                    cast(V3d(camera.origin) + point, V3d(camera.parallel), counts);
-                else
-                    cast(V3d(camera.origin), point.normalized(), counts);
+                const auto [origin, direction] = camera_ray(scene_, (column + 0.5) / kColumns, (row + 0.5) / kRows);
+                cast(origin, direction, counts);
             }
         return counts;
     }
@@ -123,7 +119,7 @@ class Darkness {
                 const auto point = point_on(scene_.shapes[static_cast<std::size_t>(shape)], i, u, v);
                 if (!point) continue;
                 const double step = 1e-6 * (point->first.length() + double((box_.max - box_.min).length()));
-                cast(point->first + point->second * step, direction_of_hemisphere(point->second, s, t), counts);
+                cast(point->first + point->second * step, direction_of_hemisphere(point->second, s, t), counts, shape);
             } else if (cone) {
                 cast(V3d(cone->apex), direction_of_cone(*cone, u, v), counts);
             }
@@ -134,6 +130,10 @@ class Darkness {
     void judge_emitter(const Emitter& emitter, const HitCounts& counts) {
         if (counts.hits == 0) return;
         const std::string first = named("shape", scene_.shapes[counts.shape].name);
+        if (counts.hits == counts.rays && counts.all(counts.own) && is_alone_inside(scene_.shapes[counts.shape]))
+            return add(warning, "inside-out emitter", emitter.where,
+                       "the light of " + first + " stays inside it: it is mirrored or flipped",
+                       "set its flip_normals (0.6: flipNormals), or remove that, or the mirroring");
         if (counts.all(counts.behind))
             return add(warning, "lights backs only", emitter.where,
                        "all light of this emitter meets backs of one-sided surfaces, as of " + first +
@@ -152,6 +152,17 @@ class Darkness {
                 add(note, "light behind glass", emitter.where,
                     "all light of this emitter meets smooth glass: paths find it only by chance", "");
         }
+    }
+
+    /// Whether neither the camera nor another shape is in a shape's box.
+    bool is_alone_inside(const Shape& shape) const {
+        const Box3 box = own_box(shape);
+        return !box.intersects(scene_.camera.origin) &&
+               std::none_of(scene_.shapes.begin(), scene_.shapes.end(), [&](const Shape& other) {
+                   const Box3 inner = own_box(other);
+                   return &other != &shape && !inner.isEmpty() && box.intersects(inner.min) &&
+                          box.intersects(inner.max);
+               });
     }
 
     const Scene& scene_;

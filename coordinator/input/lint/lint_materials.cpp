@@ -92,7 +92,13 @@ class MaterialLint {
     void eta(float ratio) {
         const std::string value = "an index of refraction of " + short_number(double(ratio));
         if (!(ratio >= 1e-6f && ratio <= 1e6f)) return add(error, "extreme ior", value, "give 1e-6 to 1e6");
-        if (std::abs(ratio - 1.0f) <= 1e-4f) return add(warning, "extreme ior", value, "the surface is invisible");
+        if (std::abs(ratio - 1.0f) <= 1e-4f) {
+            // Others have colours beneath their boundary.
+            if (std::holds_alternative<DielectricMaterial>(material_.bsdf) ||
+                std::holds_alternative<ThinDielectricMaterial>(material_.bsdf))
+                add(warning, "extreme ior", value, "the surface is invisible");
+            return;
+        }
         if (ratio > 4.0f || ratio < 0.25f) add(warning, "extreme ior", value, "glass has 1.5, diamond 2.4");
     }
     void roughness(const Roughness& r, bool) {

@@ -4,6 +4,7 @@
 #include <bit>
 #include <unordered_map>
 
+#include "coordinator/input/check/validation.h"
 #include "coordinator/input/lint/lint.h"
 
 namespace treefarm::linting {
@@ -184,6 +185,12 @@ void lint_shapes(const Scene& scene, std::vector<Finding>& findings) {
         const Shape& shape = scene.shapes[i];
         const auto* mesh = std::get_if<Mesh>(&shape.geometry);
         if (mesh && MeshLint(shape, *mesh, findings).run()) duplicates.look(i, *mesh, findings);
+        if (validation::lacks_tangents(scene, shape))
+            findings.push_back({warning, "anisotropy without uv", shape.where,
+                                named("shape", shape.name) +
+                                    " is anisotropic, but its mesh has no texture coordinates: highlights follow the "
+                                    "edges of its triangles",
+                                "export the mesh with texture coordinates"});
     }
 }
 

@@ -34,6 +34,9 @@ class Inflater {
     /// notes).
     std::uint64_t most_left() const;
 
+    /// Upper bound of the packed bytes that have not been read.
+    std::uint64_t packed_left() const { return packed_left_; }
+
     [[noreturn]] void refuse(const std::string& what, const std::string& cure) const;
 
   private:

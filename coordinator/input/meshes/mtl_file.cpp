@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/input/meshes/mtl_file.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "common/base/text/parse_text.h"
 #include "coordinator/input/meshes/input_file.h"
 #include "coordinator/input/meshes/obj_scanner.h"
@@ -64,22 +67,50 @@ class MtlReader {
         return rgb;
     }
 
-    /// The file name after options such as "-s 1 1 1", which are skipped.
+    /// The file name after options such as "-s 1 1 1", which are skipped. A name may begin with a dash or a number.
     std::string file_name() {
-        std::string name;
-        std::string_view word;
-        bool in_option = false;
-        while (scanner_.next_word(word)) {
-            const bool is_number = parse_number(word).has_value();
-            if (name.empty() && word.size() > 1 && word[0] == '-' && !is_number) {
-                in_option = true;
-                continue;
-            }
-            if (in_option && (is_number || word == "on" || word == "off" || word.size() == 1)) continue;
-            in_option = false;
-            name += (name.empty() ? "" : " ") + std::string(word);
+        const std::string text = scanner_.rest();
+        std::string_view left = text;
+        while (skip_option(left)) {
         }
-        return name;
+        return std::string(left);
+    }
+
+    static std::string_view first_word(std::string_view text) { return text.substr(0, text.find_first_of(" \t")); }
+
+    static void skip_word(std::string_view& text) {
+        text.remove_prefix(first_word(text).size());
+        text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+    }
+
+    /// Removes an option of a map with its values from the beginning of a text; false if there is none.
+    static bool skip_option(std::string_view& text) {
+        struct Option {
+            std::string_view name;
+            int numbers;             ///< at most
+            std::string_view words;  ///< values that are no numbers, between bars
+        };
+        constexpr Option kOptions[] = {{"-blendu", 0, "|on|off|"},
+                                       {"-blendv", 0, "|on|off|"},
+                                       {"-cc", 0, "|on|off|"},
+                                       {"-clamp", 0, "|on|off|"},
+                                       {"-boost", 1, ""},
+                                       {"-bm", 1, ""},
+                                       {"-mm", 2, ""},
+                                       {"-o", 3, ""},
+                                       {"-s", 3, ""},
+                                       {"-t", 3, ""},
+                                       {"-texres", 1, ""},
+                                       {"-imfchan", 0, "|r|g|b|m|l|z|"}};
+        const auto option = std::find_if(std::begin(kOptions), std::end(kOptions),
+                                         [&](const Option& o) { return o.name == first_word(text); });
+        if (option == std::end(kOptions)) return false;
+        skip_word(text);
+        for (int i = 0; i < option->numbers && parse_number(first_word(text)); ++i)
+            skip_word(text);
+        const std::string value = "|" + std::string(first_word(text)) + "|";
+        if (value.size() > 2 && option->words.find(value) != std::string_view::npos) skip_word(text);
+        return true;
     }
 
     ObjScanner scanner_;

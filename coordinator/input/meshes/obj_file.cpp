@@ -152,9 +152,11 @@ class ObjReader {
         std::string_view word;
         while (scanner_.next_word(word))
             face_.push_back(corner(word));
-        if (face_.size() < 3)
-            throw InputError(where, "a face of " + std::to_string(face_.size()) + " corners",
-                             "a face needs at least three");
+        if (face_.empty()) throw InputError(where, "a face without corners", "the file is cut short: repair it");
+        if (face_.size() < 3) {
+            ++obj_.flat_faces;
+            return;
+        }
         const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
             for (const std::size_t i : {a, b, c})
                 obj_.corners.push_back(face_[i]);

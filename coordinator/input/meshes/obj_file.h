@@ -25,6 +25,7 @@ struct ObjFile {
     std::vector<Vec3> normals;  ///< as written: not normalised
     std::vector<Vec2> uvs;
     std::vector<Corner> corners;            ///< three per triangle
+    std::size_t flat_faces = 0;             ///< faces of one or two corners, which are left out
     std::vector<std::string> materials;     ///< names of usemtl, each once
     std::vector<std::int32_t> material_of;  ///< per triangle: index in `materials`, or -1 before any usemtl
     std::vector<std::string> libraries;     ///< files named by mtllib; not read here

@@ -47,12 +47,25 @@ class ObjScanner {
     /// Location of the last word.
     Location where() const { return {file_, line_, static_cast<int>(word_at_ - line_start_) + 1}; }
 
-    /// The remaining words of the statement, separated by one blank: names may contain blanks.
+    /// The rest of the statement without blanks around it: a name, which may contain blanks and '#'.
     std::string rest() {
+        skip_blanks();
+        word_at_ = at_;
         std::string text;
-        std::string_view word;
-        while (next_word(word))
-            text += (text.empty() ? "" : " ") + std::string(word);
+        const auto strip = [&] {
+            while (!text.empty() && is_blank(text.back()))
+                text.pop_back();
+        };
+        while (at_ < text_.size() && text_[at_] != '\n') {
+            if (at_continuation()) {
+                strip();
+                skip_blanks();
+                text += ' ';
+            } else {
+                text += text_[at_++];
+            }
+        }
+        strip();
         return text;
     }
 

@@ -133,6 +133,13 @@ Mesh read_mesh(Inflater& in, std::uint16_t version) {
         in.refuse(std::to_string(vertex_count) + " vertices and " + std::to_string(triangle_count) +
                       " triangles do not fit into the file",
                   "the file is cut short or damaged: repair it");
+    // Meshes pack by a factor of some ten; a file of zeros would cost its reader minutes.
+    constexpr std::uint64_t kSmall = std::uint64_t{1} << 26, kMostPacking = 100;
+    const std::uint64_t needed = vertex_count * bytes_each + triangle_count * 12;
+    if (needed > kSmall && needed / kMostPacking > in.packed_left())
+        in.refuse(std::to_string(vertex_count) + " vertices and " + std::to_string(triangle_count) +
+                      " triangles are packed into " + std::to_string(in.packed_left()) + " bytes",
+                  "no mesh packs so well: check what wrote it");
     Mesh mesh;
     read_vectors(in, is_double, vertex_count, mesh.positions);
     if (flags & kHasNormals) read_vectors(in, is_double, vertex_count, mesh.normals);

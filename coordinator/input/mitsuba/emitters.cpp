@@ -72,6 +72,20 @@ EmitterKind read_spot(Properties& properties, TextureReader& textures, const Dia
     return spot;
 }
 
+/// Reads a beam along a line: a spot whose cone has a half angle of a milliradian and the beam's power.
+EmitterKind read_collimated(Properties& properties, TextureReader& textures, const Diagnostics&) {
+    constexpr double kAngle = 1e-3;
+    SpotEmitter spot;
+    const Matrix to_world = properties.transform("to_world");
+    spot.position = transform_point(to_world, Vec3(0.0f));
+    spot.axis = z_axis(to_world);
+    const double solid_angle = 4.0 * M_PI * std::pow(std::sin(0.5 * kAngle), 2);
+    spot.intensity =
+        textures.constant(properties, "power", Rgb(1.0f), ColorUse::radiance) * static_cast<float>(1.0 / solid_angle);
+    spot.cutoff = spot.beam = static_cast<float>(kAngle);
+    return spot;
+}
+
 EmitterKind read_directional(Properties& properties, TextureReader& textures, const Diagnostics&) {
     DirectionalEmitter directional;
     if (properties.has("direction") && properties.has("to_world"))
@@ -132,13 +146,20 @@ EmitterKind read_projector(Properties& properties, TextureReader& textures, cons
 struct EmitterReader {
     std::string_view type;
     EmitterKind (*read)(Properties&, TextureReader&, const Diagnostics&);
-    int first_version = 0;  ///< of Mitsuba that has it
+    int first_version = 0, last_version = 99;  ///< of Mitsuba that have it
+
+    bool is_of(int version) const { return version >= first_version && version <= last_version; }
 };
 
 /// Readers of emitters outside shapes. Those of the sky (sky_emitters.h) may add two emitters.
 constexpr EmitterReader kReaders[] = {
-    {"point", read_point},       {"spot", read_spot},     {"directional", read_directional},
-    {"constant", read_constant}, {"envmap", read_envmap}, {"projector", read_projector, 2},
+    {"point", read_point},
+    {"spot", read_spot},
+    {"directional", read_directional},
+    {"constant", read_constant},
+    {"envmap", read_envmap},
+    {"projector", read_projector, 2},
+    {"collimated", read_collimated, 0, 0},
 };
 constexpr std::string_view kSkies[] = {"sky", "sun", "sunsky"};
 
@@ -146,7 +167,7 @@ constexpr std::string_view kSkies[] = {"sky", "sun", "sunsky"};
 std::string cure_of(const std::string& type, int version) {
     std::vector<std::string_view> known;
     for (const EmitterReader& reader : kReaders)
-        if (version >= reader.first_version) known.push_back(reader.type);
+        if (reader.is_of(version)) known.push_back(reader.type);
     known.insert(known.end(), std::begin(kSkies), std::end(kSkies));
     std::string all = "use ";
     for (const std::string_view name : known)
@@ -202,7 +223,7 @@ void read_emitter(const XmlElement& emitter, Scene& scene, TextureReader& textur
     const std::size_t first = scene.emitters.size();
     const bool had_environment = scene.environment() != kNone;
     const auto reader = std::find_if(std::begin(kReaders), std::end(kReaders), [&](const EmitterReader& r) {
-        return r.type == type && emitter.version >= r.first_version;
+        return r.type == type && r.is_of(emitter.version);
     });
     if (reader != std::end(kReaders)) {
         scene.emitters.push_back({reader->read(properties, textures, diagnostics), emitter.where});
@@ -220,6 +241,24 @@ void read_emitter(const XmlElement& emitter, Scene& scene, TextureReader& textur
             throw InputError(emitter.where, "this is a second environment emitter",
                              "keep one of them; sunsky has a sun in its sky, and a sun with sunRadiusScale 0 is a "
                              "directional light beside any");
+}
+
+void add_default_sky(const SceneDocument& document, Scene& scene, TextureReader& textures, Diagnostics& diagnostics) {
+    const Location& where = document.root().where;
+    const auto element = [&](const char* tag, std::vector<XmlAttribute> attributes) {
+        XmlElement made;
+        made.tag = tag;
+        made.attributes = std::move(attributes);
+        made.where = where;
+        return made;
+    };
+    XmlElement sky = element("emitter", {{"type", "sunsky"}}), turn = element("transform", {{"name", "toWorld"}});
+    turn.children.push_back(element("rotate", {{"y", "1"}, {"angle", "-120"}}));
+    sky.children = {turn, element("float", {{"name", "scale"}, {"value", "2"}}),
+                    element("float", {{"name", "sunRadiusScale"}, {"value", "15"}}),
+                    element("boolean", {{"name", "extend"}, {"value", "true"}})};
+    diagnostics.warn(where, "the scene has no emitters: sun and sky are added, as in Mitsuba 0.6");
+    read_emitter(sky, scene, textures, document, diagnostics);
 }
 
 }  // namespace treefarm::mitsuba

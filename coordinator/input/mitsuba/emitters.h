@@ -20,6 +20,9 @@ void read_emitter(const XmlElement& emitter, Scene& scene, TextureReader& textur
 /// Environment with the axes of the property to_world. Throws InputError unless it is a rotation or a reflection.
 EnvironmentEmitter read_environment_axes(Properties& properties);
 
+/// Adds the sky with a large sun that Mitsuba 0.6 adds to a scene without emitters, with a warning.
+void add_default_sky(const SceneDocument& document, Scene& scene, TextureReader& textures, Diagnostics& diagnostics);
+
 /// Adds the emitters of <emitter type="sky">, "sun" or "sunsky": an image of the sky with the sun's disk in it, and a
 /// directional emitter for a sun without extent. The sky is Hosek and Wilkie's. The sun is Preetham's in files of
 /// version 0.x, as in Mitsuba 0.6, and Hosek and Wilkie's in later ones, as in Mitsuba 3.

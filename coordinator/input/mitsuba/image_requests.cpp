@@ -64,6 +64,29 @@ void expand_to_floats(TextureImage& image) {
         image.floats.insert(image.floats.end(), 3, value);
 }
 
+/// Whether a texel of an image of three channels has a colour.
+bool is_coloured(const TextureImage& image) {
+    const auto differ = [](const auto& values) {
+        for (std::size_t i = 0; i + 2 < values.size(); i += 3)
+            if (values[i] != values[i + 1] || values[i] != values[i + 2]) return true;
+        return false;
+    };
+    return image.channels == 3 && (differ(image.bytes) || differ(image.floats));
+}
+
+/// Replaces three channels by their luminance. Grey images stay as they are: their mean is the same.
+void take_luminance(TextureImage& image) {
+    std::vector<float> grey(image.bytes.size() / 3 + image.floats.size() / 3);
+    for (std::size_t i = 0; i < grey.size(); ++i)
+        grey[i] =
+            luminance(image.bytes.empty() ? Rgb(image.floats[3 * i], image.floats[3 * i + 1], image.floats[3 * i + 2])
+                                          : Rgb(image.decode[image.bytes[3 * i]], image.decode[image.bytes[3 * i + 1]],
+                                                image.decode[image.bytes[3 * i + 2]]));
+    image.bytes.clear();
+    image.floats = std::move(grey);
+    image.channels = 1;
+}
+
 /// Largest half-precision number, which programs write for infinity.
 constexpr float kLargestHalf = 65504.0f;
 
@@ -115,6 +138,15 @@ TextureImage make_image(const StoredImage& file, const Decoding& decoding, const
             where,
             std::to_string(repairs.impossible) + " values of the image are negative or not finite and were set to 0",
             "numbers");
+    if (decoding.number != TexelNumber::none && is_coloured(image)) {
+        const bool mean = decoding.number == TexelNumber::mean;
+        diagnostics.note(where, std::string("a coloured image stands for a number: ") +
+                                    (mean ? "the mean of its channels counts, as in Mitsuba 0.6; its property channel "
+                                            "(r, g, b or a) chooses one"
+                                          : "its luminance counts, as in Mitsuba; if one channel is meant, save that "
+                                            "as a grey image"));
+        if (!mean) take_luminance(image);
+    }
     if (decoding.as_floats) expand_to_floats(image);
     return image;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -11,6 +12,10 @@
 #include "coordinator/input/mitsuba/diagnostics.h"
 
 namespace treefarm::mitsuba {
+
+/// Number that a coloured texel stands for: none, the mean of its channels (Mitsuba 0.6), or its luminance (the heights
+/// of 0.6, everything in 2 and 3).
+enum class TexelNumber : std::uint8_t { none, mean, luminance };
 
 /// Interpretation of the values of an image file.
 struct Decoding {
@@ -23,8 +28,9 @@ struct Decoding {
     bool signed_values = false;  ///< negative floats are kept
     bool is_light = false;       ///< infinite floats become the largest half
     bool as_floats = false;      ///< three channels of linear floats, whatever the file has
+    TexelNumber number = TexelNumber::none;
 
-    auto key() const { return std::tie(gamma, file_gamma, channel, signed_values, is_light, as_floats); }
+    auto key() const { return std::tie(gamma, file_gamma, channel, signed_values, is_light, as_floats, number); }
     bool operator<(const Decoding& other) const { return key() < other.key(); }
 };
 

@@ -205,7 +205,7 @@ void MaterialReader::read_tilt(Properties& properties, NormalDetail& detail) {
 }
 
 Material MaterialReader::convert_bump(Properties& properties) {
-    const ColorInput map = textures_.data(texture_inside(properties, "displacements"), true);
+    const ColorInput map = textures_.heights(texture_inside(properties, "displacements"));
     NormalDetail detail;
     detail.bump = map.texture;
     detail.bump_scale = average(map.value);
@@ -217,7 +217,7 @@ Material MaterialReader::convert_bump(Properties& properties) {
 }
 
 Material MaterialReader::convert_normal_map(Properties& properties) {
-    ColorInput map = textures_.data(texture_inside(properties, "normals"), false);
+    ColorInput map = textures_.normals(texture_inside(properties, "normals"));
     NormalDetail detail;
     read_tilt(properties, detail);
     Material material = convert_child(properties);

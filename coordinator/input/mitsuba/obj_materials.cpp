@@ -10,6 +10,19 @@
 namespace treefarm::mitsuba {
 namespace {
 
+/// Index of an OBJ file's material by its name. A name that is followed by a comment is found without that, too, if no
+/// material has just this name: names may hold a '#'.
+std::size_t find_material(const ObjFile& obj, const std::string& name) {
+    const auto& names = obj.materials;
+    auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+        found = std::find_if(names.begin(), names.end(), [&](const std::string& whole) {
+            const std::size_t comment = whole.find(" #");
+            return comment != std::string::npos && trim(std::string_view(whole).substr(0, comment)) == name;
+        });
+    return static_cast<std::size_t>(found - names.begin());
+}
+
 class Assignment {
   public:
     Assignment(const ObjFile& obj, Properties& properties, MaterialReader& materials, Diagnostics& diagnostics)
@@ -24,10 +37,9 @@ class Assignment {
         for (const Child& bsdf : bsdfs) {
             const std::string* id = bsdf.object->find("id");
             const std::string name = !bsdf.name.empty() ? bsdf.name : id != nullptr ? *id : "";
-            const auto found = std::find(obj_.materials.begin(), obj_.materials.end(), name);
-            if (found != obj_.materials.end() && !name.empty())
-                result_[static_cast<std::size_t>(found - obj_.materials.begin()) + 1].material =
-                    materials_.read(*bsdf.object);
+            const std::size_t found = find_material(obj_, name);
+            if (found < obj_.materials.size() && !name.empty())
+                result_[found + 1].material = materials_.read(*bsdf.object);
             else if (bsdf.name.empty() || bsdfs.size() == 1)
                 set_common(bsdf);
             else
@@ -81,9 +93,9 @@ class Assignment {
     }
 
     void use(const MtlMaterial& material, const std::filesystem::path& folder) {
-        const auto found = std::find(obj_.materials.begin(), obj_.materials.end(), material.name);
-        if (found == obj_.materials.end()) return;
-        ObjMaterial& part = result_[static_cast<std::size_t>(found - obj_.materials.begin()) + 1];
+        const std::size_t found = find_material(obj_, material.name);
+        if (found == obj_.materials.size()) return;
+        ObjMaterial& part = result_[found + 1];
         if (part.material != kNone) return;
         part.material = materials_.read_made(bsdf_of_mtl(material, folder));
         part.emission = material.emission;

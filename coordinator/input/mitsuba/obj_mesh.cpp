@@ -126,6 +126,10 @@ std::vector<ObjPart> read_obj_parts(Properties& properties, MaterialReader& mate
     const std::int64_t group = is_old ? properties.integer("shape_index", -1) : -1;
 
     ObjFile obj = read_obj(options.file, properties.where("filename"));
+    if (obj.flat_faces > 0)
+        diagnostics.warn(properties.where("filename"), std::to_string(obj.flat_faces) +
+                                                           " faces of the OBJ file have fewer than three corners and "
+                                                           "were left out");
     if (obj.corners.empty())
         throw InputError({options.file.string()}, "the OBJ file has no faces", "repair it, or remove the shape");
     if (group >= 0) select_group(obj, group, properties.where("shape_index"));

@@ -118,7 +118,7 @@ void Properties::add_value(const XmlElement& element) {
 }
 
 void Properties::repeated(const Location& where, const std::string& what, const char* cure) {
-    if (!is_tolerant()) throw InputError(where, what, cure);
+    if (object_.version >= 3) throw InputError(where, what, cure);
     diagnostics_.warn(where, what + ": the last one holds");
 }
 

@@ -31,7 +31,7 @@ struct Child {
 class Properties {
   public:
     /// Wrong attributes, repeated properties and unknown elements throw InputError (or warn, when lenient). In a file
-    /// of version 0 the last of repeated properties holds, with a warning.
+    /// of version 0 or 2 the last of repeated properties holds, with a warning.
     Properties(const XmlElement& object, const SceneDocument& document, Diagnostics& diagnostics);
 
     const XmlElement& element() const { return object_; }

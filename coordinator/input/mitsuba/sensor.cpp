@@ -130,6 +130,22 @@ Camera make_camera(const Matrix& to_world, double horizontal_fov, double aspect,
     return camera;
 }
 
+void set_default_camera(int version, Scene& scene) {
+    Box3 box;
+    for (const Shape& shape : scene.shapes)
+        if (shape.group == kNone) box.extendBy(own_box(shape));
+    Matrix to_world;
+    if (!box.isEmpty() && is_finite(box.min) && is_finite(box.max)) {
+        const Imath::V3d low(box.min), high(box.max), size = high - low;
+        const double width = std::max(std::max(size.x, size.y), version < 2 ? 0.0 : size.z);
+        const double distance = width / (2.0 * std::tan(radians(22.5)));
+        to_world.setTranslation(Imath::V3d(0.5 * (low.x + high.x), 0.5 * (low.y + high.y), low.z - distance));
+    }
+    const double aspect = static_cast<double>(scene.film.whole_width()) / scene.film.whole_height();
+    scene.camera = make_camera(to_world, 45.0, aspect, 0.0, 0.0);
+    scene.camera.passes_hidden_emitters = version >= 2;
+}
+
 void read_sensor(const XmlElement& sensor, const FilmSize& wanted, Scene& scene, std::vector<Setting>& settings,
                  const SceneDocument& document, Diagnostics& diagnostics) {
     Properties properties(sensor, document, diagnostics);
@@ -152,6 +168,7 @@ void read_sensor(const XmlElement& sensor, const FilmSize& wanted, Scene& scene,
     scene.camera = type == "orthographic" ? read_orthographic(properties, aspect)
                    : type == "spherical"  ? read_spherical(properties)
                                           : read_perspective(properties, type, aspect, diagnostics);
+    scene.camera.passes_hidden_emitters = sensor.version >= 2;
     // A pinhole has no focus, and rays need no clipping planes: objects before the near plane are visible.
     properties.ignore({"near_clip", "far_clip", "focus_distance"});
     properties.finish();

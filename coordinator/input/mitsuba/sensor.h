@@ -33,8 +33,13 @@ Film read_film(const XmlElement* film, const FilmSize& wanted, int version, std:
                const SceneDocument& document, Diagnostics& diagnostics);
 
 /// The sensor to render: the one with the id `wanted`, or with this number among all, from 0 on. If `wanted` is empty,
-/// the first, or in files of version 0.x the last, as in Mitsuba, with a note if there are more. Throws InputError if
-/// there is none.
-const XmlElement& choose_sensor(Properties& scene, const std::string& wanted, Diagnostics& diagnostics);
+/// the first, or in files of version 0.x the last, as in Mitsuba, with a note if there are more. nullptr if the scene
+/// has none, with a warning: set_default_camera() follows. Mitsuba 3 refuses that, so in its files it throws InputError
+/// unless lenient.
+const XmlElement* choose_sensor(Properties& scene, const std::string& wanted, Diagnostics& diagnostics);
+
+/// Adds the camera that Mitsuba 0.6 and 2 add to a scene without a sensor: it looks along z, with a field of view of 45
+/// degrees, from where the scene's extent in x and y (2 and 3: in x, y and z) fills it. The film must be there.
+void set_default_camera(int version, Scene& scene);
 
 }  // namespace treefarm::mitsuba

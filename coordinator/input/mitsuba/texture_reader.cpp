@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/input/mitsuba/texture_reader.h"
 
+#include <algorithm>
 #include <iterator>
 #include <span>
 
 #include "common/base/text/parse_text.h"
+#include "common/scene/uses/mesh_attribute_uses.h"
 #include "coordinator/input/mitsuba/spectrum_plugins.h"
 
 namespace treefarm::mitsuba {
 namespace {
 
+/// Textures of version 0, and of later ones, where spectra are objects, too.
+constexpr std::string_view kOldTextures[] = {"bitmap",      "checkerboard", "scale",
+                                             "gridtexture", "vertexcolors", "wireframe"};
 constexpr std::string_view kTextures[] = {"bitmap", "checkerboard", "scale",   "uniform",   "rawconstant",   "srgb",
                                           "d65",    "irregular",    "regular", "blackbody", "mesh_attribute"};
 
@@ -43,6 +48,11 @@ UvTransform read_uv_transform(Properties& properties) {
     return uv;
 }
 
+/// Number that a colour stands for; grey keeps its bits.
+float as_number(const Rgb& color, bool mean) {
+    return mean || (color.x == color.y && color.y == color.z) ? average(color) : luminance(color);
+}
+
 bool read_filter(Properties& properties) {
     const std::string filter = properties.text("filter_type", "bilinear");
     if (filter == "nearest") return false;
@@ -54,6 +64,33 @@ bool read_filter(Properties& properties) {
 
 }  // namespace
 
+void choose_line_widths(Scene& scene) {
+    const auto is_open = [](const Texture& texture) {
+        const auto* wires = std::get_if<WireframeTexture>(&texture.kind);
+        return wires && wires->line_width == 0.0f;
+    };
+    if (std::none_of(scene.textures.begin(), scene.textures.end(), is_open)) return;
+    const std::vector<std::set<std::int32_t>> uses = textures_of_shapes(scene);
+    for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+        if (!is_open(scene.textures[i])) continue;
+        double sum = 0.0;
+        std::size_t edges = 0;
+        for (std::size_t s = 0; s < uses.size(); ++s) {
+            const auto* mesh = std::get_if<Mesh>(&scene.shapes[s].geometry);
+            if (!mesh || !uses[s].contains(static_cast<std::int32_t>(i))) continue;
+            const auto& at = mesh->indices;
+            for (std::size_t corner = 0; corner < at.size(); ++corner) {
+                const std::size_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
+                sum += double((mesh->positions[at[next]] - mesh->positions[at[corner]]).length());
+            }
+            edges += at.size();
+        }
+        if (edges > 0)
+            std::get<WireframeTexture>(scene.textures[i].kind).line_width =
+                static_cast<float>(0.1 * sum / static_cast<double>(edges));
+    }
+}
+
 std::filesystem::path file_of(Properties& properties) {
     if (!properties.has("filename"))
         throw InputError(properties.where(), properties.title() + " has no file name",
@@ -61,8 +98,14 @@ std::filesystem::path file_of(Properties& properties) {
     return properties.text("filename", "");
 }
 
+/// Use of a colour in a texture of Mitsuba 0.6, which scales a texture that exceeds 1 as a whole
+/// (validate_materials.cpp).
+ColorUse TextureReader::scaled_as_whole(const Use& use) {
+    return use.color == ColorUse::reflectance ? ColorUse::coefficient : use.color;
+}
+
 ColorInput TextureReader::color(Properties& properties, const std::string& name, const Rgb& otherwise, ColorUse use) {
-    if (const XmlElement* texture = properties.named_child("texture", name)) return read(*texture, {use, false, false});
+    if (const XmlElement* texture = properties.named_child("texture", name)) return read(*texture, {use});
     return properties.color(name, otherwise, use);
 }
 
@@ -78,21 +121,28 @@ Rgb TextureReader::constant(Properties& properties, const std::string& name, con
 
 FloatInput TextureReader::number(Properties& properties, const std::string& name, float otherwise) {
     ColorInput input;
+    const bool mean = properties.element().version < 2;
     if (const XmlElement* texture = properties.named_child("texture", name)) {
-        input = read(*texture, {ColorUse::coefficient, false, false});
+        input =
+            read(*texture, {ColorUse::coefficient, false, false, mean ? TexelNumber::mean : TexelNumber::luminance});
     } else if (const std::string tag = properties.tag_of(name); tag != "rgb" && tag != "srgb" && tag != "spectrum") {
         return static_cast<float>(properties.number(name, double(otherwise)));
     } else {
         input.value = properties.color(name, Rgb(otherwise), ColorUse::coefficient);
     }
     if (input.value.x != input.value.y || input.value.y != input.value.z)
-        diagnostics_.warn(properties.where(name), in_quotes(name) + " of " + properties.title() +
-                                                      " is coloured: the mean of its channels is used");
-    return {average(input.value), input.texture};
+        diagnostics_.warn(properties.where(name),
+                          in_quotes(name) + " of " + properties.title() +
+                              " is coloured: " + (mean ? "the mean of its channels" : "its luminance") + " is used");
+    return {as_number(input.value, mean), input.texture};
 }
 
-ColorInput TextureReader::data(const XmlElement& texture, bool signed_values) {
-    return read(texture, {ColorUse::coefficient, true, signed_values});
+ColorInput TextureReader::heights(const XmlElement& texture) {
+    return read(texture, {ColorUse::coefficient, true, true, TexelNumber::luminance});
+}
+
+ColorInput TextureReader::normals(const XmlElement& texture) {
+    return read(texture, {ColorUse::coefficient, true, false});
 }
 
 double TextureReader::aspect(const ColorInput& input) const {
@@ -121,21 +171,27 @@ ColorInput TextureReader::read(const XmlElement& texture, const Use& use) {
 ColorInput TextureReader::convert(const XmlElement& texture, const Use& use) {
     Properties properties(texture, document_, diagnostics_);
     const std::string type = properties.type();
+    const bool is_old = properties.element().version < 2;
     ColorInput input(Rgb(0.5f));
     if (type == "bitmap") {
         input = convert_bitmap(properties, use);
     } else if (type == "checkerboard") {
         input = convert_checkerboard(properties, use);
+    } else if (type == "gridtexture" && is_old) {
+        input = convert_grid(properties, use);
+    } else if (type == "wireframe" && is_old) {
+        input = convert_wireframe(properties, use);
+    } else if (type == "vertexcolors" && is_old) {
+        input = {Rgb(1.0f), add(MeshAttributeTexture{"vertex_color"}, properties)};
     } else if (type == "scale") {
         input = convert_scale(properties, use);
-    } else if (type == "mesh_attribute" && properties.element().version >= 2) {
+    } else if (type == "mesh_attribute" && !is_old) {
         input = convert_mesh_attribute(properties);
     } else if (const auto constant = read_constant(properties, use)) {
         input = *constant;
     } else {
-        // Objects for spectra came with version 2.
         const auto known_types =
-            std::span(kTextures).first(properties.element().version < 2 ? 3 : std::size(kTextures));
+            is_old ? std::span<const std::string_view>(kOldTextures) : std::span<const std::string_view>(kTextures);
         diagnostics_.unsupported(texture.where, "the texture " + in_quotes(type) + " is not available in this version",
                                  did_you_mean(type, known_types, "use bitmap, checkerboard or scale"), "0.5 is used");
         return input;
@@ -167,6 +223,7 @@ ColorInput TextureReader::convert_bitmap(Properties& properties, const Use& use)
     Decoding decoding;
     decoding.signed_values = use.signed_values;
     decoding.is_light = use.color == ColorUse::radiance;
+    decoding.number = use.number;
     if (is_old) {
         decoding.file_gamma = true;
         if (use.data && !properties.has("gamma"))
@@ -205,9 +262,10 @@ ColorInput TextureReader::convert_bitmap(Properties& properties, const Use& use)
 ColorInput TextureReader::convert_checkerboard(Properties& properties, const Use& use) {
     CheckerboardTexture board;
     for (const auto& [name, color] : {std::pair("color0", &board.color0), std::pair("color1", &board.color1)}) {
-        // Mitsuba 0.6 scales a checkerboard that exceeds 1 as a whole (validate_materials.cpp).
-        const bool scales = properties.element().version < 2 && use.color == ColorUse::reflectance;
-        *color = constant(properties, name, *color, scales ? ColorUse::coefficient : use.color);
+        *color =
+            constant(properties, name, *color, properties.element().version < 2 ? scaled_as_whole(use) : use.color);
+        const bool grey = color->x == color->y && color->y == color->z;
+        if (use.number == TexelNumber::luminance && !grey) *color = Rgb(luminance(*color));
     }
     board.uv = read_uv_transform(properties);
     // If Mitsuba 3 evaluates a checkerboard as one number (eval_1 in its checkerboard.cpp), the squares are exchanged.
@@ -215,6 +273,25 @@ ColorInput TextureReader::convert_checkerboard(Properties& properties, const Use
         std::swap(board.color0, board.color1);
     if (properties.element().version < 2) properties.ignore({"filter_type", "cache"});
     return {Rgb(1.0f), add(board, properties)};
+}
+
+ColorInput TextureReader::convert_grid(Properties& properties, const Use& use) {
+    GridTexture grid;
+    for (const auto& [name, color] : {std::pair("color0", &grid.color0), std::pair("color1", &grid.color1)})
+        *color = constant(properties, name, *color, scaled_as_whole(use));
+    grid.line_width = static_cast<float>(properties.number("line_width", 0.01));
+    grid.uv = read_uv_transform(properties);
+    properties.ignore({"filter_type", "cache"});
+    return {Rgb(1.0f), add(grid, properties)};
+}
+
+ColorInput TextureReader::convert_wireframe(Properties& properties, const Use& use) {
+    WireframeTexture wires;
+    wires.edge = constant(properties, "edge_color", wires.edge, scaled_as_whole(use));
+    wires.interior = constant(properties, "interior_color", wires.interior, scaled_as_whole(use));
+    wires.line_width = static_cast<float>(properties.number("line_width", 0.0));
+    wires.step_width = static_cast<float>(std::clamp(properties.number("step_width", 0.5), 0.0, 1.0));
+    return {Rgb(1.0f), add(wires, properties)};
 }
 
 ColorInput TextureReader::convert_mesh_attribute(Properties& properties) {

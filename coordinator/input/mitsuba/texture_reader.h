@@ -22,12 +22,14 @@ class TextureReader {
     /// its factor is used.
     Rgb constant(Properties& properties, const std::string& name, const Rgb& otherwise, ColorUse use);
 
-    /// Number from the property `name`: a number, a colour (its mean), or a texture.
+    /// Number from the property `name`: a number, a colour, or a texture. Of colours the number is the mean of the
+    /// channels in version 0, else the luminance.
     FloatInput number(Properties& properties, const std::string& name, float otherwise);
 
-    /// Texture with values that are data (displacements, normals): integers are linear, not sRGB, unless the element
-    /// says otherwise.
-    ColorInput data(const XmlElement& texture, bool signed_values);
+    /// Textures with values that are data: integers are linear, not sRGB, unless the element says otherwise. Heights
+    /// are luminances, and may be negative.
+    ColorInput heights(const XmlElement& texture);
+    ColorInput normals(const XmlElement& texture);
 
     /// Width over height of a texture's pixels; 1 for textures without pixels.
     double aspect(const ColorInput& input) const;
@@ -44,7 +46,8 @@ class TextureReader {
         ColorUse color = ColorUse::reflectance;
         bool data = false;
         bool signed_values = false;
-        auto key() const { return std::tie(color, data, signed_values); }
+        TexelNumber number = TexelNumber::none;
+        auto key() const { return std::tie(color, data, signed_values, number); }
         bool operator<(const Use& other) const { return key() < other.key(); }
     };
     ColorInput read(const XmlElement& texture, const Use& use);
@@ -53,6 +56,9 @@ class TextureReader {
     std::optional<ColorInput> read_constant(Properties& properties, const Use& use);
     ColorInput convert_bitmap(Properties& properties, const Use& use);
     ColorInput convert_checkerboard(Properties& properties, const Use& use);
+    static ColorUse scaled_as_whole(const Use& use);
+    ColorInput convert_grid(Properties& properties, const Use& use);
+    ColorInput convert_wireframe(Properties& properties, const Use& use);
     ColorInput convert_scale(Properties& properties, const Use& use);
     ColorInput convert_mesh_attribute(Properties& properties);
     std::int32_t add(TextureKind kind, const Properties& properties);
@@ -63,6 +69,10 @@ class TextureReader {
     ImageRequests images_;
     std::map<std::pair<const XmlElement*, Use>, ColorInput> known_;
 };
+
+/// Gives wireframes of line width 0 a tenth of the mean edge of the meshes that use them, as Mitsuba 0.6 does for the
+/// first of these.
+void choose_line_widths(Scene& scene);
 
 /// File named by a property, relative to the element's file. Throws InputError if it is missing.
 std::filesystem::path file_of(Properties& properties);

@@ -10,6 +10,7 @@
 #include "cli/tonemap.h"
 #include "common/image/exr.h"
 #include "common/image/png.h"
+#include "common/image/srgb.h"
 #include "coordinator/input/images/stored_image.h"
 #include "tests/support/command.h"
 #include "tests/support/test_folder.h"
@@ -103,6 +104,22 @@ TEST_F(Convert, OtherLayersAreShownSoThatTheyCanBeSeen) {
     const test::Ended ended = convert(path("out.png") + " --layer depth");
     EXPECT_NE(ended.output.find("depth.Z: 2 is dark, 6 white"), std::string::npos) << ended.output;
     EXPECT_EQ(convert(path("out.png") + " --layer dd.y").code, 0);
+}
+
+TEST_F(Convert, ColoursKeepTheirAlpha) {
+    ASSERT_EQ(convert(path("out.exr")).code, 0);
+    const Image kept = read_exr(path("out.exr")).image;
+    ASSERT_EQ(alpha_of(kept).size(), 2u);
+    EXPECT_EQ(alpha_of(kept)[1], 0.5f);
+    EXPECT_EQ(rgb_layer(kept)->pixels[1].x, 8.0f) << "premultiplied";
+    ASSERT_EQ(convert(path("out.png") + " --exposure -5").code, 0);
+    const StoredImage png = read_stored_image(path("out.png"));
+    ASSERT_EQ(png.channels.size(), 4u);
+    EXPECT_EQ(png.bytes[3], 255);
+    EXPECT_EQ(png.bytes[7], 128);
+    EXPECT_EQ(png.bytes[4], static_cast<int>(255 * srgb_encode(0.5f) + 0.5f)) << "straight: 8 / 32 over 0.5";
+    ASSERT_EQ(convert(path("normal.png") + " --layer normal").code, 0);
+    EXPECT_EQ(read_stored_image(path("normal.png")).channels.size(), 3u);
 }
 
 TEST_F(Convert, ALayerBecomesAFileOfItsOwn) {

@@ -40,7 +40,8 @@ TEST(Frames, WhatIsNoRangeIsRefusedWithACure) {
         {"1,,2", "missing between commas", "1,5,9-12"},
         {"1,2,", "missing between commas", "1,5,9-12"},
         {"a", "\"a\" in \"a\" is no frame number", "whole numbers"},
-        {"-3", "is no frame number", "from 0 on"},
+        {"-3", "is no frame number, but negative", "from 0 on"},
+        {"1,-2-2", "\"-2-2\" is no frame number, but negative", "from 0 on"},
         {"1-", "\"\" in \"1-\" is no frame number", "1-24"},
         {"1--3", "is no frame number", "from 0 on"},
         {"1.5", "is no frame number", "whole numbers"},
@@ -76,6 +77,9 @@ TEST(Frames, NumbersStandForTheirMarks) {
     EXPECT_TRUE(names_frame("5% of %03d"));
     EXPECT_EQ(output_for_frame("s/f.####.exr", 7), "s/f.0007.exr");
     EXPECT_EQ(output_for_frame("#_##_%03d.png", 123), "123_123_123.png");
+    EXPECT_EQ(output_for_frame("shot#2/f.####.exr", 7), "shot#2/f.0007.exr") << "folders keep their names";
+    EXPECT_EQ(output_for_frame("shot#2/%02d/f.exr", 7), "shot#2/07/f.exr");
+    EXPECT_FALSE(output_names_frame("shot#2/f.exr"));
     EXPECT_TRUE(output_names_frame("f#.exr"));
     EXPECT_TRUE(output_names_frame("f%d.exr"));
     EXPECT_FALSE(output_names_frame("f%.exr"));

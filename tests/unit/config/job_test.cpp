@@ -273,6 +273,17 @@ TEST(Job, BrokenTomlHasALocation) {
     EXPECT_EQ(message_of("[budget]\nspp = = 3\n").find('\n'), std::string::npos);
 }
 
+/// Each dot of a key is a table within another one: so many would exhaust the stack.
+TEST(Job, KeysOfVeryManyDotsAreRefused) {
+    std::string dots;
+    for (int i = 0; i < 100'000; ++i)
+        dots += "a.";
+    for (const std::string& text : {dots + "a = 1", "[" + dots + "a]\nb = 1", "x = {" + dots + "a = 1}"})
+        EXPECT_NE(message_of("\n" + text).find("job.toml:2: a key of 100000 dots"), std::string::npos)
+            << message_of(text).substr(0, 200);
+    EXPECT_EQ(message_of("# " + dots + " = \n[output]\nfile = \"" + dots.substr(0, 2000) + "exr\"\n"), "no error");
+}
+
 TEST(Job, SceneFileIsRelativeToTheJobFile) {
     const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "job_test";
     std::filesystem::create_directories(folder);

@@ -9,6 +9,7 @@
 
 #include "common/base/error.h"
 #include "common/image/srgb.h"
+#include "coordinator/input/images/stored_image.h"
 #include "tests/support/read_ldr.h"
 #include "tests/support/refusal.h"
 #include "tests/support/test_folder.h"
@@ -99,6 +100,26 @@ TEST(Png, RefusesTruncation) {
 TEST(Png, WritingReportsWhatFailed) {
     EXPECT_THROW(write_png(fresh_png("no") / "folder" / "a.png", RgbImage(1, 1)), RunError);
     EXPECT_THROW(write_png(fresh_png("empty.png"), RgbImage()), RunError);
+}
+
+TEST(Png, AlphaMakesItRgbaWithStraightColours) {
+    RgbImage image(3, 1);
+    image.pixels = {Rgb(0.25f, 0.125f, 0.0f), Rgb(0.5f), Rgb(0.25f)};
+    const std::vector<float> alpha = {0.5f, 1.0f, 0.0f};
+    const RgbImage straight = straight_colours(image, alpha);
+    EXPECT_EQ(straight.pixels, (std::vector<Rgb>{Rgb(0.5f, 0.25f, 0.0f), Rgb(0.5f), Rgb(0.25f)}))
+        << "0 keeps its colour";
+    EXPECT_EQ(straight_colours(image, {}).pixels, image.pixels);
+    const std::vector<std::uint8_t> png = encode_png(straight, 1.0f, alpha);
+    EXPECT_EQ(png[25], 6) << "colour type of RGBA";
+    const fs::path path = fresh_png("alpha.png");
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+    const StoredImage read = read_stored_image(path);
+    ASSERT_EQ(read.channels, (std::vector<std::string>{"R", "G", "B", "A"}));
+    const auto byte = [](float linear) { return static_cast<std::uint8_t>(255 * srgb_encode(linear) + 0.5f); };
+    EXPECT_EQ(read.bytes, (std::vector<std::uint8_t>{byte(0.5f), byte(0.25f), 0, 128, byte(0.5f), byte(0.5f),
+                                                     byte(0.5f), 255, byte(0.25f), byte(0.25f), byte(0.25f), 0}));
 }
 
 }  // namespace

@@ -63,6 +63,73 @@ TEST(Darkness, LightsBehindSmoothGlass) {
     EXPECT_EQ(found[0].severity, Finding::Severity::note) << "chance finds one that has an area";
 }
 
+std::int32_t add_mirror(Scene& scene) {
+    Material material;
+    material.bsdf = ConductorMaterial{};
+    scene.materials.push_back(material);
+    return static_cast<std::int32_t>(scene.materials.size()) - 1;
+}
+
+/// A floor that reaches far, and the camera above it.
+Scene floor_from_above() {
+    Scene scene;
+    test::add_shape(scene, test::quad({-50, 0, -50}, {0, 0, 100}, {100, 0, 0}), test::add_diffuse(scene, Rgb(0.5f)));
+    scene.camera = test::look_at(Vec3(0, 9, 0), Vec3(0.0f), Vec3(0, 0, 1), 0.4f);
+    return scene;
+}
+
+/// Light that comes to what the camera sees through smooth glass alone, whatever else it meets.
+TEST(Darkness, PointsAboveGlassThatCoversTheView) {
+    Scene scene = floor_from_above();
+    const std::int32_t glass = add_glass(scene);
+    test::add_shape(scene, test::box({-6, 1, -6}, {6, 1.5f, 6}, false), glass);
+    add_light(scene, Vec3(0, 3, 0));
+    EXPECT_EQ(kinds(scene), Kinds{"light behind glass"});
+    scene.shapes.back().geometry = Sphere{Vec3(0, 3, 0), 1.0f};
+    EXPECT_EQ(kinds(scene), Kinds{"light behind glass"});
+    scene.emitters = {{DirectionalEmitter{Vec3(0, -1, 0)}, {}}};
+    scene.shapes.back().geometry = test::box({-60, 1, -60}, {60, 1.5f, 60}, false);
+    EXPECT_EQ(kinds(scene), Kinds{"light behind glass"}) << "from one side";
+    scene.shapes.back().geometry = test::box({0, 1, -6}, {6, 1.5f, 6}, false);
+    EXPECT_EQ(kinds(scene), Kinds{}) << "half of the view is lit";
+}
+
+/// A lamp in a housing that is open towards a mirror.
+TEST(Darkness, LightByMirrorsAlone) {
+    Scene scene = floor_from_above();
+    SpotEmitter spot;
+    spot.position = Vec3(0, 2, 0);
+    spot.axis = Vec3(0, 1, 0);
+    spot.cutoff = spot.beam = 0.2f;
+    scene.emitters = {{spot, {}}};
+    const std::int32_t mirror = add_mirror(scene);
+    test::add_shape(scene, test::quad({-1, 4, -1}, {2, 0, 0}, {0, 0, 2}), mirror);
+    scene.camera = test::look_at(Vec3(0, 3, -9), Vec3(0.0f), Vec3(0, 1, 0), 0.3f);
+    EXPECT_EQ(kinds(scene), Kinds{"light by mirrors"});
+    spot.axis = Vec3(0, -1, 0);
+    scene.emitters = {{spot, {}}};
+    EXPECT_EQ(kinds(scene), Kinds{});
+}
+
+TEST(Darkness, LampsThatAreInsideOut) {
+    for (const bool flipped : {false, true}) {
+        Scene scene = floor_from_above();
+        test::add_shape(scene, Sphere{Vec3(0, 2, 0), 0.5f, flipped}, 0, Rgb(3.0f), "lamp");
+        EXPECT_EQ(kinds(scene), flipped ? Kinds{"inside-out emitter"} : Kinds{});
+        scene.shapes.back().geometry = test::box({-0.5f, 2, -0.5f}, {0.5f, 3, 0.5f}, flipped);
+        EXPECT_EQ(kinds(scene), flipped ? Kinds{"inside-out emitter"} : Kinds{});
+        if (!flipped) continue;
+        scene.shapes.back().geometry = Sphere{Vec3(0.0f), 100.0f, true};
+        EXPECT_EQ(kinds(scene), Kinds{}) << "a sky";
+    }
+}
+
+TEST(Darkness, SentencesHaveNoSeverity) {
+    const std::vector<Finding> found = dark_causes(floor_from_above());
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].sentence(), "the scene has no emitters; add one");
+}
+
 TEST(Darkness, EmittersThatFaceAWall) {
     Scene scene = room(true, false);
     scene.emitters.clear();

@@ -125,5 +125,44 @@ TEST(Lint, ConesOfPointsHitSomething) {
         unreachable(ProjectorEmitter{Vec3(0, 0, 3), axis, cross(Vec3(0, 1, 0), axis), Vec3(0, 1, 0), 1.0f, 0.1f}));
 }
 
+/// An index of 1 makes glass invisible, and only that.
+TEST(Lint, OpaqueSurfacesOfIndex1AreVisible) {
+    Scene scene = test::cornell_box(1.0f, Vec3(0.0f));
+    PrincipledMaterial principled;
+    PlasticMaterial plastic;
+    DielectricMaterial glass;
+    principled.eta = plastic.eta = glass.eta = 1.0f;
+    scene.materials[0].bsdf = principled;
+    EXPECT_FALSE(kinds_of(lint(scene)).contains("extreme ior"));
+    scene.materials[0].bsdf = plastic;
+    EXPECT_FALSE(kinds_of(lint(scene)).contains("extreme ior"));
+    scene.materials[0].bsdf = glass;
+    EXPECT_TRUE(kinds_of(lint(scene)).contains("extreme ior"));
+}
+
+TEST(Lint, AnisotropyNeedsTextureCoordinates) {
+    Scene scene = test::cornell_box(1.0f, Vec3(0.0f));
+    const std::size_t shape = scene.shapes.size();
+    Mesh mesh = test::quad({0.2f, 0.2f, 0.2f}, {0, 0.1f, 0}, {0.1f, 0, 0});
+    test::add_shape(scene, mesh, test::add_diffuse(scene, Rgb(0.5f)));
+    const auto add = [&](decltype(Material::bsdf) bsdf) {
+        scene.materials.back().bsdf = std::move(bsdf);
+        std::get<Mesh>(scene.shapes[shape].geometry).uvs.clear();
+        EXPECT_TRUE(kinds_of(lint(scene)).contains("anisotropy without uv"));
+        std::get<Mesh>(scene.shapes[shape].geometry).uvs = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
+        EXPECT_FALSE(kinds_of(lint(scene)).contains("anisotropy without uv"));
+    };
+    ConductorMaterial metal;
+    metal.roughness = {Microfacets::ggx, 0.1f, 0.4f};
+    add(metal);
+    PrincipledMaterial principled;
+    principled.anisotropic = 0.5f;
+    add(principled);
+    metal.roughness = {Microfacets::ggx, 0.1f, 0.1f};
+    scene.materials.back().bsdf = metal;
+    std::get<Mesh>(scene.shapes[shape].geometry).uvs.clear();
+    EXPECT_FALSE(kinds_of(lint(scene)).contains("anisotropy without uv"));
+}
+
 }  // namespace
 }  // namespace treefarm

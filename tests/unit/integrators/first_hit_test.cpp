@@ -217,6 +217,48 @@ TEST(DirectLight, IsPartOfEachGuidedSample) {
     }
 }
 
+/// The wall with a normal map that tilts it towards +x everywhere, as Mitsuba's texels say.
+Scene tilted_wall() {
+    Scene scene = wall_scene();
+    const Rgb texel(0.8f, 0.5f, 0.9f);
+    scene.textures.push_back({CheckerboardTexture{texel, texel, {}}, "", {}});
+    scene.materials[0].detail.normal_map = 0;
+    return scene;
+}
+
+TEST(FirstHit, NormalsAreThoseOfShadingAndAlbedosAreFlat) {
+    const Vec3 tilted(0.6f, 0, -0.8f), flat(0, 0, -1);
+    Scene scene = tilted_wall();
+    const auto expect_normal = [&](const Vec3& expected, const char* what) {
+        const test::Layers image = render(scene, "normal,geometric_normal,albedo", 4);
+        for (const std::size_t p : {0, 27, 63}) {
+            EXPECT_LT((image.vector("normal", p) - expected).length(), 1e-5f) << what << image.vector("normal", p);
+            EXPECT_LT((image.vector("geometric_normal", p) - flat).length(), 1e-6f) << what;
+        }
+        return image.vector("albedo", 27, "RGB");
+    };
+    EXPECT_LT((expect_normal(tilted, "tilted") - Vec3(0.1f, 0.2f, 0.7f)).length(), 1e-5f);
+    CoatingMaterial coat;
+    coat.coated = 0;
+    scene.shapes[0].material = add_material(scene, coat);
+    expect_normal(tilted, "below a coat");
+    scene.shapes[0].material =
+        add_material(scene, BlendMaterial{FloatInput(0.5f), 0, add_diffuse(scene, Rgb(0.5f), true)});
+    const Vec3 albedo = expect_normal(normalize(tilted + flat), "half of a blend");
+    EXPECT_LT((albedo - Vec3(0.3f, 0.35f, 0.6f)).length(), 1e-3f) << albedo;
+}
+
+TEST(NormalsIntegrator, ShowsTheNormalsOfShading) {
+    Scene scene = tilted_wall();
+    Job job;
+    job.integrator.type = "normals";
+    const Rgb64 tilted = render(scene, "", 1, job).pixels[27].whole().mean;
+    EXPECT_NEAR(tilted.x, 0.8, 1e-5);
+    EXPECT_NEAR(tilted.z, 0.1, 1e-5);
+    scene.materials[0].detail = {};
+    EXPECT_NEAR(render(scene, "", 1, job).pixels[27].whole().mean.x, 0.5, 1e-6);
+}
+
 TEST(FirstHit, LeavesTheImageAndItsCountsAlone) {
     Scene scene = test::cornell_box(1.0f, Vec3(0.0f));
     test::set_film(scene, 12, 12);

@@ -116,5 +116,38 @@ TEST_F(ObjMaterials, TypesInAnyCaseAndOldVersions) {
     EXPECT_NE(refusal("<luminaire type=\"constant\"/>", "0.4.4").find("Mitsuba 0.4 or older"), std::string::npos);
 }
 
+/// Names hold what stands behind the keyword: "Material #25", several blanks, dashes, numbers.
+TEST_F(ObjMaterials, NamesAreTheRestOfTheLine) {
+    write("my lib #1.mtl", "newmtl Material #25\nKd 0.8 0 0\nnewmtl Material #26  \nKd 0 0 0.8 # blue\n");
+    write("names.obj",
+          "mtllib my lib #1.mtl\nv -1 -1 0 # a corner\nv 0 -1 0\nv 0 1 0\nv -1 1 0\nv 1 -1 0\nv 1 1 0\n"
+          "usemtl Material #25\ng left #1\nf 1 2 3 4 # a face\nusemtl Material #26\r\nf 2 5 6 3\n");
+    const auto named_obj = [](const std::string& inside) {
+        return "<shape type=\"obj\"><string name=\"filename\" value=\"names.obj\"/>" + inside + "</shape>";
+    };
+    const Scene scene = load_with_sensor(named_obj("")).scene;
+    ASSERT_EQ(scene.shapes.size(), 2u);
+    EXPECT_EQ(reflectance(scene, true), Rgb(0.8f, 0, 0));
+    EXPECT_EQ(reflectance(scene, false), Rgb(0, 0, 0.8f));
+    const Scene by_bsdf = load_with_sensor(named_obj(named("name=\"Material #26\"", "0.5"))).scene;
+    EXPECT_EQ(reflectance(by_bsdf, false), Rgb(0.5f));
+    // A comment behind a name is no part of it if only so the material is found.
+    write("names.obj", "v -1 -1 0\nv 0 -1 0\nv 0 1 0\nusemtl oak  # the seat\nf 1 2 3\n");
+    EXPECT_EQ(reflectance(load_with_sensor(named_obj(named("name=\"oak\"", "0.25"))).scene, true), Rgb(0.25f));
+}
+
+TEST(Mtl, MapsMayHaveOptionsAndAnyName) {
+    const auto map = [](const std::string& line) {
+        return parse_mtl("newmtl m\nmap_Kd " + line + "\n", "m.mtl").at(0).diffuse_map;
+    };
+    EXPECT_EQ(map("two  spaces.png"), "two  spaces.png");
+    EXPECT_EQ(map("-weird.png"), "-weird.png");
+    EXPECT_EQ(map("Wood #3.png\r"), "Wood #3.png");
+    EXPECT_EQ(map("-s 1 1 1 01 wood.png"), "01 wood.png");
+    EXPECT_EQ(map("-clamp on -bm 0.5 -weird.png"), "-weird.png");
+    EXPECT_EQ(map("-blendu off -imfchan r -o 0.5 wood.png"), "wood.png");
+    EXPECT_EQ(map("long \\\nname.png"), "long name.png");
+}
+
 }  // namespace
 }  // namespace treefarm

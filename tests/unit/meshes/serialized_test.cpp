@@ -155,5 +155,18 @@ TEST(Serialized, EveryCutAndEveryFlippedByteIsRefused) {
     }
 }
 
+/// Zeros pack by a factor of a thousand: a small file must not cost gigabytes.
+TEST(Serialized, MeshesThatPackTooWellAreRefused) {
+    std::string payload;
+    test::append<std::uint32_t>(payload, 0x1000u);
+    payload += std::string("zeros") + '\0';
+    test::append<std::uint64_t>(payload, std::uint64_t{100} << 20);
+    test::append<std::uint64_t>(payload, 1);
+    std::string file = serialized_file({payload}, 4);
+    // As many bytes that could hold as much, were they all runs of zeros.
+    file.insert(file.size() - 12, std::string(2 << 20, '\0'));
+    expect_refused(file, "no mesh packs so well");
+}
+
 }  // namespace
 }  // namespace treefarm

@@ -211,5 +211,31 @@ TEST_F(MitsubaEmitters, InfiniteLightStaysTheBrightest) {
                             [](const Warning& w) { return w.text().find("65504") != std::string::npos; }));
 }
 
+/// A beam is a spot of its power, a milliradian wide.
+TEST_F(MitsubaEmitters, CollimatedBeams) {
+    const std::string beam =
+        "<emitter type=\"collimated\"><transform name=\"toWorld\"><lookat origin=\"1,2,3\" target=\"1,2,9\" "
+        "up=\"0,1,0\"/>"
+        "</transform><spectrum name=\"power\" value=\"2\"/></emitter>";
+    const Scene scene = load_with_sensor(beam).scene;
+    const auto& spot = std::get<SpotEmitter>(scene.emitters.at(0).kind);
+    EXPECT_EQ(spot.position, Vec3(1, 2, 3));
+    EXPECT_NEAR(spot.axis.z, 1.0f, 1e-6f);
+    EXPECT_EQ(spot.beam, spot.cutoff);
+    EXPECT_NEAR(spot.intensity.x * static_cast<float>(M_PI) * spot.cutoff * spot.cutoff, 2.0f, 1e-4f);
+    EXPECT_NE(refusal(beam, "3.0.0"), "") << "Mitsuba 3 has none";
+}
+
+/// Mitsuba 0.6 adds sun and sky to a scene without an emitter.
+TEST_F(MitsubaEmitters, WithoutOneThereAreSunAndSky) {
+    const std::string sphere = "<shape type=\"sphere\"/>";
+    const LoadedScene lit = load_with_sensor(sphere);
+    EXPECT_NE(lit.scene.environment(), kNone);
+    ASSERT_EQ(lit.warnings.size(), 1u);
+    EXPECT_NE(lit.warnings[0].what.find("sun and sky are added"), std::string::npos);
+    EXPECT_EQ(load_with_sensor(sphere + "<emitter type=\"point\"/>").scene.emitters.size(), 1u);
+    EXPECT_TRUE(load_with_sensor(sphere, "3.0.0").scene.emitters.empty());
+}
+
 }  // namespace
 }  // namespace treefarm

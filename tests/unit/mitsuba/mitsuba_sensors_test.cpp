@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
 #include "common/config/job_reader.h"
 #include "tests/support/mitsuba_fixture.h"
 
@@ -225,6 +227,32 @@ TEST_F(MitsubaSensors, IntegratorsThatTracePaths) {
               4);
     EXPECT_EQ(job("<integrator type=\"direct\"/>").guiding.type, Job().guiding.type);
     EXPECT_THROW(job("<integrator type=\"field\"/>"), InputError);
+}
+
+TEST_F(MitsubaSensors, WithoutOneTheWholeSceneIsSeen) {
+    const std::string scene =
+        "<emitter type=\"constant\"/><shape type=\"cube\"><transform name=\"toWorld\"><scale z=\"3\"/>"
+        "<translate x=\"5\"/></transform></shape>";
+    const LoadedScene old = load(scene);
+    const Camera camera = old.scene.camera;
+    const float distance = 1.0f / std::tan(static_cast<float>(M_PI) / 8.0f);
+    expect_near(camera.origin, Vec3(5, 0, -3 - distance), 1e-4f);
+    expect_near(direction(camera, 0.5f, 0.5f), Vec3(0, 0, 1));
+    EXPECT_NEAR(camera.across.length(), 2.0f / distance, 1e-4f) << "45 degrees";
+    ASSERT_EQ(old.warnings.size(), 1u);
+    EXPECT_NE(old.warnings[0].what.find("no sensor"), std::string::npos);
+    std::string newer = scene;
+    newer.replace(newer.find("toWorld"), 7, "to_world");
+    expect_near(load(newer, "2.1.0").scene.camera.origin, Vec3(5, 0, -3 - 3 * distance), 1e-4f);
+    EXPECT_NE(refusal_of([&] { load(newer, "3.0.0"); }).find("the scene has no sensor"), std::string::npos);
+    expect_near(load(newer, "3.0.0", {}, true).scene.camera.origin, Vec3(5, 0, -3 - 3 * distance), 1e-4f);
+}
+
+TEST_F(MitsubaSensors, HiddenEmittersArePassedFromVersion2On) {
+    for (const auto& [version, passes] :
+         {std::pair("0.6.0", false), std::pair("2.1.0", true), std::pair("3.0.0", true)})
+        EXPECT_EQ(load_with_sensor("<emitter type=\"constant\"/>", version).scene.camera.passes_hidden_emitters,
+                  passes);
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ class MitsubaTextures : public MitsubaFixture {
                inside + "</texture>";
     }
     static std::string diffuse(const std::string& texture) {
-        return "<shape type=\"rectangle\"><bsdf type=\"diffuse\">" + texture + "</bsdf></shape>";
+        return "<shape type=\"rectangle\"><bsdf type=\"diffuse\">" + texture +
+               "</bsdf></shape><emitter type=\"point\"/>";
     }
     Scene scene(const std::string& inside, const std::string& file = "rgb.png",
                 const std::string& version = "0.6.0") const {
@@ -80,6 +81,70 @@ TEST_F(MitsubaTextures, ColoursOfAMesh) {
             << error.what();
     }
     EXPECT_THROW(load_with_sensor(shape("vertex_color"), "0.6.0"), InputError);
+
+    // In Mitsuba 0.6 the colours are a texture of their own; so are the edges, by default a tenth of their mean length.
+    const auto old = [](const std::string& texture) {
+        return "<shape type=\"ply\"><string name=\"filename\" value=\"m.ply\"/><bsdf type=\"diffuse\">" + texture +
+               "</bsdf></shape>";
+    };
+    const Scene painted = load_with_sensor(old("<texture type=\"vertexcolors\" name=\"reflectance\"/>")).scene;
+    EXPECT_EQ(std::get<MeshAttributeTexture>(painted.textures.at(0).kind).name, "vertex_color");
+    EXPECT_EQ(std::get<Mesh>(painted.shapes[0].geometry).attributes.at(0).values.size(), 3u);
+    const Scene wires = load_with_sensor(old("<texture type=\"wireframe\" name=\"reflectance\">"
+                                             "<rgb name=\"edgeColor\" value=\"0.25\"/></texture>"))
+                            .scene;
+    const auto& wire = std::get<WireframeTexture>(wires.textures.at(0).kind);
+    EXPECT_EQ(wire.edge, Rgb(0.25f));
+    EXPECT_NEAR(wire.line_width, 0.1f * (2.0f + std::sqrt(2.0f)) / 3.0f, 1e-6f);
+    EXPECT_THROW(load_with_sensor(old("<texture type=\"wireframe\" name=\"reflectance\"/>"), "3.0.0"), InputError);
+}
+
+TEST_F(MitsubaTextures, Grids) {
+    const Scene s =
+        load_with_sensor(diffuse("<texture type=\"gridtexture\" name=\"reflectance\">"
+                                 "<rgb name=\"color0\" value=\"0.3\"/><float name=\"lineWidth\" value=\"0.05\"/>"
+                                 "<float name=\"uscale\" value=\"10\"/></texture>"))
+            .scene;
+    const auto& grid = std::get<GridTexture>(s.textures.at(0).kind);
+    EXPECT_EQ(grid.color0, Rgb(0.3f));
+    EXPECT_EQ(grid.color1, Rgb(0.4f));
+    EXPECT_EQ(grid.line_width, 0.05f);
+    EXPECT_EQ(grid.uv.u_row, Vec3(10, 0, 0));
+    EXPECT_THROW(load_with_sensor(diffuse("<texture type=\"gridtexture\" name=\"reflectance\">"
+                                          "<float name=\"lineWidth\" value=\"-1\"/></texture>")),
+                 InputError);
+}
+
+/// A colour that stands for a number: the mean of its channels in 0.6, its luminance in 2 and 3 and for all heights.
+TEST_F(MitsubaTextures, ColouredImagesForNumbers) {
+    write("green.png", TinyPng{1, 1, 3, 8, {0, 255, 0}, 0.0}.bytes());
+    write("grey.png", TinyPng{1, 1, 3, 8, {99, 99, 99}, 0.0}.bytes());
+    const auto mask = [&](const char* file, const char* version) {
+        return load_with_sensor("<shape type=\"rectangle\"><bsdf type=\"mask\">" +
+                                    bitmap("<boolean name=\"raw\" value=\"true\"/>", file, "opacity") +
+                                    "<bsdf type=\"diffuse\"/></bsdf></shape><emitter type=\"constant\"/>",
+                                version);
+    };
+    for (const char* version : {"2.1.0", "3.0.0"}) {
+        const LoadedScene loaded = mask("green.png", version);
+        EXPECT_EQ(loaded.scene.images.at(0).channels, 1);
+        ASSERT_EQ(loaded.scene.images[0].floats.size(), 1u);
+        EXPECT_NEAR(loaded.scene.images[0].floats[0], 0.7152f, 1e-4f);
+        ASSERT_FALSE(loaded.notes.empty());
+        EXPECT_NE(loaded.notes.back().what.find("its luminance counts"), std::string::npos);
+        const LoadedScene grey = mask("grey.png", version);
+        EXPECT_EQ(grey.scene.images.at(0).bytes.size(), 3u) << "as it was";
+        EXPECT_TRUE(grey.notes.empty());
+    }
+    const LoadedScene old = mask("green.png", "0.6.0");
+    EXPECT_EQ(old.scene.images.at(0).bytes, (std::vector<std::uint8_t>{0, 255, 0}));
+    EXPECT_NE(old.notes.back().what.find("the mean of its channels counts"), std::string::npos);
+    const Scene bump = load_with_sensor(
+                           "<shape type=\"rectangle\"><bsdf type=\"bumpmap\"><texture type=\"bitmap\">"
+                           "<string name=\"filename\" value=\"green.png\"/><float name=\"gamma\" value=\"1\"/>"
+                           "</texture><bsdf type=\"diffuse\"/></bsdf></shape>")
+                           .scene;
+    EXPECT_NEAR(bump.images.at(0).floats.at(0), 0.7152f, 1e-4f);
 }
 
 TEST_F(MitsubaTextures, GammaOfTheFileCountsInTheOldVersion) {
@@ -159,7 +224,7 @@ TEST_F(MitsubaTextures, CheckerboardsAndScales) {
     EXPECT_EQ(input.value, Rgb(0.5f));
     EXPECT_EQ(input.texture, 0);
     EXPECT_THROW(material("<texture type=\"scale\" name=\"reflectance\"/>"), InputError);
-    EXPECT_THROW(material("<texture type=\"wireframe\" name=\"reflectance\"/>"), InputError);
+    EXPECT_THROW(material("<texture type=\"curvature\" name=\"reflectance\"/>"), InputError);
 }
 
 TEST_F(MitsubaTextures, FilesAreReadOnceAndOnlyIfUsed) {

@@ -14,7 +14,7 @@ class MitsubaUnqueried : public MitsubaFixture {
     /// Warnings about what stands in the file, not about the whole scene.
     std::vector<std::string> warnings(const std::string& body) const {
         std::vector<std::string> texts;
-        for (const Warning& warning : load_with_sensor(body).warnings)
+        for (const Warning& warning : load_with_sensor(body + "<emitter type=\"point\"/>").warnings)
             if (warning.where.line > 0) texts.push_back(warning.text());
         return texts;
     }
@@ -43,6 +43,7 @@ TEST_F(MitsubaUnqueried, TheLastOfRepeatedPropertiesHolds) {
     ASSERT_EQ(warnings(twice).size(), 1u);
     EXPECT_NE(warnings(twice)[0].find("given twice"), std::string::npos);
     EXPECT_NE(refusal(twice, "3.0.0").find("given twice"), std::string::npos);
+    EXPECT_EQ(refusal(twice, "2.1.0").find("given twice"), std::string::npos) << "Mitsuba 2 warns";
 
     const std::string bsdfs =
         "<shape type=\"sphere\"><bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"0.1\"/></bsdf>"

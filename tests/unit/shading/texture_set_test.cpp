@@ -240,5 +240,36 @@ TEST(TextureSet, InputsAreFactorsOfTheirTextures) {
     EXPECT_EQ(set.eval(FloatInput(0.5f, 0), middle(1, 1)), 2.0f);
 }
 
+TEST(TextureSet, GridsHaveLinesAtWholeCoordinates) {
+    GridTexture grid{Rgb(0.2f), Rgb(0.4f), 0.05f, {Vec3(10, 0, 0), Vec3(0, 1, 0)}};
+    const TextureSet set({{grid, "", {}}}, {});
+    for (const float u : {0.05f, -0.05f, 0.55f})
+        EXPECT_EQ(set.value(0, TexturePoint(u, 0.5f)), 0.2f) << u;
+    for (const float u : {0.0f, 0.004f, 0.096f, -0.3f, 7.1f})
+        EXPECT_EQ(set.value(0, TexturePoint(u, 0.5f)), 0.4f) << u;
+    EXPECT_EQ(set.value(0, TexturePoint(0.05f, 2.96f)), 0.4f);
+}
+
+TEST(TextureSet, WiresFollowTheEdgesOfTriangles) {
+    WireframeTexture wires;
+    wires.edge = Rgb(0.0f), wires.interior = Rgb(1.0f);
+    wires.line_width = 0.4f;
+    const TextureSet set({{wires, "", {}}}, {});
+    EXPECT_TRUE(set.reads_meshes());
+    Mesh mesh;
+    mesh.positions = {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
+    mesh.indices = {0, 1, 2};
+    const auto at = [&](float x, float y) {
+        const MeshPoint point{&mesh, 0, x / 4, y / 4};
+        return set.value(0, {Vec2(0.0f), &point});
+    };
+    EXPECT_EQ(at(1.0f, 1.0f), 1.0f) << "inside";
+    EXPECT_EQ(at(1.0f, 0.1f), 0.0f) << "at an edge";
+    EXPECT_EQ(at(0.1f, 1.0f), 0.0f);
+    EXPECT_EQ(at(1.95f, 1.95f), 0.0f) << "at the third";
+    EXPECT_NEAR(at(1.0f, 0.3f), 0.5f, 1e-5f) << "amid the step, from 0.2 to 0.4";
+    EXPECT_EQ(set.value(0, TexturePoint(0.5f, 0.5f)), 1.0f) << "no mesh";
+}
+
 }  // namespace
 }  // namespace treefarm

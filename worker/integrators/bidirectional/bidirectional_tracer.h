@@ -217,7 +217,8 @@ class BidirectionalTracer {
     void connect_to_lens(const PathKey& key, const Draw& lens) {
         for (int i = 0; i < light_.size(); ++i) {
             const LightVertex<Surface>& y = light_[i];
-            if (!rules_.techniques.has(i + 2, 1) || !y.surface->smooth()) continue;
+            if (!rules_.techniques.has(i + 2, 1) || !y.surface->smooth() || scene_.geometry().hidden(y.hit.shape))
+                continue;
             const FilmConnection to = sensor_.importance.connect(y.hit.p, lens);
             if (!to.seen || !sensor_.pixels.reaches(to.x, to.y)) continue;
             const LightScattering scattering =

@@ -110,8 +110,8 @@ class Follower {
             }
             if (!beyond && seen) return;
             if (!surface.has_delta() || surface.smooth() || surface.black()) {
-                row.add(Aov::albedo, albedo_of(surface));
-                row.add(Aov::normal, towards(hit.ns, ray));
+                row.add(Aov::normal, towards(surface.bent_normal(), ray));
+                if (layout_.has(Aov::albedo)) row.add(Aov::albedo, flat_albedo(hit, surface, ray));
                 return;
             }
             const BsdfSample s = sample_bsdf(surface, draw(key, vertex, Stream::scatter));
@@ -124,6 +124,15 @@ class Follower {
   private:
     static Vec3 towards(const Vec3& normal, const Ray& ray) {
         return dot(normal, ray.direction) > 0.0f ? -normal : normal;
+    }
+
+    /// Albedo without bump and normal maps, whose detail the normal has: a tilted surface loses light that would go
+    /// below the real one. Replaces the surface's BSDF in the scratch.
+    Rgb flat_albedo(const Hit& hit, const Surface& surface, const Ray& ray) {
+        if constexpr (Surface::kGeneral)
+            return albedo_of(Surface(scene_, hit, -ray.direction, scratch_, true));
+        else
+            return albedo_of(surface);
     }
 
     /// Records the first surface of the camera ray.

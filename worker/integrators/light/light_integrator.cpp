@@ -156,6 +156,7 @@ class LightTracer {
 
     /// Connects a vertex to the lens; `light` arrives there from `in`.
     void connect(const Hit& hit, const Vec3& in, const Rgb& light, const SplatSource& source, const Draw& lens) {
+        if (scene_.geometry().hidden(hit.shape)) return;
         const FilmConnection to = sensor_.importance.connect(hit.p, lens);
         if (!to.seen || !sensor_.pixels.reaches(to.x, to.y)) return;
         const LightScattering scattering =

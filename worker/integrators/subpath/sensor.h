@@ -23,7 +23,7 @@ struct Sensor {
 
 /// Shadow ray from a surface to the lens.
 inline Ray ray_to_lens(const Hit& hit, const FilmConnection& to) {
-    Ray ray{offset_origin(hit, to.direction), Vec3(0.0f), 1.0f};
+    Ray ray{offset_origin(hit, to.direction), Vec3(0.0f), 1.0f, true};
     ray.direction = to.target - ray.origin;
     // Closer than the offset: no occluder fits between.
     if (!(dot(ray.direction, to.direction) > 0.0f)) ray.length = -1.0f;

@@ -11,13 +11,7 @@ struct CheckerboardTexture {
     UvTransform uv;
 
     static constexpr KindEffect kEffect{"checkerboards", "checkerboard"};
-    ValueRange range(const auto&) const {
-        ValueRange range{color0.x, color0.x};
-        for (const Rgb& color : {color0, color1})
-            for (int i = 0; i < 3; ++i)
-                range = range.with(color[i]);
-        return range;
-    }
+    ValueRange range(const auto&) const { return range_of_colors(color0, color1); }
     Rgb mean(const auto&) const { return (color0 + color1) * 0.5f; }
     static void fields(auto& self, auto& visitor) {
         visitor.color("colour", self.color0);

@@ -22,4 +22,13 @@ struct ValueRange {
     ValueRange with(float value) const { return {value < min ? value : min, max < value ? value : max}; }
 };
 
+/// Range of the channels of two colours.
+inline ValueRange range_of_colors(const Rgb& a, const Rgb& b) {
+    ValueRange range{a.x, a.x};
+    for (const Rgb& color : {a, b})
+        for (int i = 0; i < 3; ++i)
+            range = range.with(color[i]);
+    return range;
+}
+
 }  // namespace treefarm
