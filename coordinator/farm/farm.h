@@ -125,6 +125,8 @@ class Farm {
     void give_up(Member& member, MemberState state, const std::string& why);
     void announce(int peer);
     Speeds speeds() const;
+    double pass_result_seconds() const;
+    double copy_gain(const Member& member, int holder, const WorkUnit& unit, const Speeds& all) const;
     bool serve(Member& member, const Speeds& all);
     bool serve_copies(Member& member, const Speeds& all);
     void serve_all();
