@@ -5,6 +5,8 @@
 #include <chrono>
 #include <exception>
 
+#include "common/base/timer.h"
+
 namespace treefarm {
 
 TracerPool::TracerPool(unsigned threads, RenderUnit render) {
@@ -111,8 +113,10 @@ void TracerPool::run(State& state) {
 }
 
 void TracerPool::trace(State& state, PassWork& pass, const WorkUnit& unit, UnitOutput& output) {
+    const Timer timer;
     output.begin(pass.guide().regions().distribution_count(), pass.plan().layers.splats);
     state.render(pass.plan(), pass.guide(), unit, output);
+    output.stats.busy_seconds += timer.seconds();
     state.samples += output.stats.paths;
     state.rays += output.stats.rays + output.stats.shadow_rays;
     pass.deliver(unit, output);

@@ -54,6 +54,7 @@ void TraceStats::add(const TraceStats& other) {
     tails.add(other.tails);
     trace_seconds += other.trace_seconds;
     splat_seconds += other.splat_seconds;
+    busy_seconds += other.busy_seconds;
     for (std::size_t i = 0; i < kTracePhases; ++i)
         phase_seconds[i] += other.phase_seconds[i];
 }

@@ -71,7 +71,7 @@ void Collector::check_stats(const Result& result) const {
         if (light_paths > paths || s.emission.squares[i] > kMostSplatSum)
             throw FormatError("light paths that do not fit the work units");
     }
-    if (!is_duration(s.trace_seconds) || !is_duration(s.splat_seconds) ||
+    if (!is_duration(s.trace_seconds) || !is_duration(s.splat_seconds) || !is_duration(s.busy_seconds) ||
         !std::all_of(s.phase_seconds.begin(), s.phase_seconds.end(), is_duration))
         throw FormatError("an impossible number of seconds");
     if (s.first_invalid.size() > TraceStats::kMaxReported)

@@ -26,7 +26,7 @@ constexpr std::uint64_t kMostLogged = 20;
 constexpr double kSecondsMargin = 60.0, kSecondsRatio = 2.0;
 
 void check_seconds(const TraceStats& stats, double most) {
-    double longest = std::max(stats.trace_seconds, stats.splat_seconds);
+    double longest = std::max({stats.trace_seconds, stats.splat_seconds, stats.busy_seconds});
     for (const double seconds : stats.phase_seconds)
         longest = std::max(longest, seconds);
     if (longest > most) throw FormatError("more seconds than its threads have had");
@@ -115,7 +115,13 @@ void Farm::on(int peer, const Hello& m) {
         refuse(peer, m, "it has no threads to trace with");
         return;
     }
-    roster_.admit(peer, m, clock_.seconds());
+    if (channel_.is_guest(peer) && m.memory > 0 && m.memory < guest_bytes_) {
+        refuse(peer, m,
+               "its host has " + std::to_string(m.memory >> 20) + " MiB of memory left, and it is expected to need " +
+                   std::to_string(guest_bytes_ >> 20) + " MiB (farm.memory_check)");
+        return;
+    }
+    roster_.admit(peer, m, clock_.seconds()).is_guest = channel_.is_guest(peer);
     if (ledger_) ledger_->forgive(peer);
     log_->debug("worker {} on {} with {} threads", peer, m.host, m.threads);
     tell(peer, Welcome{static_cast<std::uint32_t>(peer), job_.farm.heartbeat_seconds, job_text_, scene_hash_,

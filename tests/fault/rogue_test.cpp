@@ -116,6 +116,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadResult{"more shadow rays than anybody traces", [](Result& r) { r.stats.shadow_rays = 1ull << 60; }},
         BadResult{"more rays of split paths than rays", [](Result& r) { r.stats.split_path_rays = r.stats.rays + 1; }},
         BadResult{"more seconds than have passed", [](Result& r) { r.stats.trace_seconds = 1e6; }},
+        BadResult{"busy for longer than has passed", [](Result& r) { r.stats.busy_seconds = 1e9; }},
         BadResult{"more seconds of a phase than have passed", [](Result& r) { r.stats.phase_seconds[1] = 1e6; }},
         BadResult{"more capped records than anybody makes", [](Result& r) { change_varint(r.update, 5); }},
         BadResult{"more records of a region than anybody makes", [](Result& r) { change_varint(r.update, 10); }},
