@@ -75,6 +75,7 @@ class WebServer::Server final : public httplib::Server {
     ~Server() override { end(); }
 
     void begin() {
+        ::listen(svr_sock_, SOMAXCONN);  // httplib lets five wait, and others knock again after a second or more
         pending_ = std::make_unique<PendingRequests>(limits_, [this](int socket) { answer(socket); });
         thread_ = std::thread([this] {
             listen_after_bind();
