@@ -46,7 +46,7 @@ inline constexpr const char* kProgramMemory = "program";
 inline constexpr std::uint64_t kProgramBytes = std::uint64_t{36} << 20;
 
 /// Bytes of pixels that a worker sends without waiting for its next update: many threads fill much memory in that time.
-inline constexpr std::size_t kBundleBytes = std::size_t{32} << 20;
+inline constexpr std::size_t kBundleBytes = std::size_t{24} << 20;
 
 /// Bytes of an emitter, its table apart.
 inline constexpr std::uint64_t kEmitterBytes = 128;
