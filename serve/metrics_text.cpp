@@ -80,8 +80,11 @@ constexpr std::array kWorkerFigures = {
     Figure{"treefarm_worker_threads", "gauge", "Tracing threads of a worker.", "threads"},
     Figure{"treefarm_worker_paths_per_second", "gauge", "Speed of a worker: a mean over some seconds.",
            "paths_per_second"},
-    Figure{"treefarm_worker_idle_ratio", "gauge", "Fraction of the last finished pass in which its threads were idle.",
-           "idle_share"},
+    Figure{"treefarm_worker_idle_ratio", "gauge",
+           "Fraction of the last finished pass in which its threads waited for units.", "idle_share"},
+    Figure{"treefarm_worker_processor_ratio", "gauge",
+           "Fraction of their processors' time that its busy threads got in the last finished pass.",
+           "processor_share"},
     Figure{"treefarm_worker_losses_total", "counter", "Losses of a worker while it was needed.", "losses"},
 };
 constexpr std::array kStates = {"running", "done", "interrupted", "failed", "killed", "silent", "unknown"};

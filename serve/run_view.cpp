@@ -115,8 +115,9 @@ FileJson entry_of(const ConfinedFolder& root, const std::string& path, const Her
 /// A worker's members in status.json or summary.json that the page shows.
 FileJson worker_of(const FileJson& worker) {
     FileJson view = {{"host", text_of(worker, "host")}, {"state", text_of(worker, "state")}};
-    add_numbers(view, worker,
-                {"worker", "threads", "losses", "paths_per_second", "rays", "idle_share", "bad_messages"});
+    add_numbers(
+        view, worker,
+        {"worker", "threads", "losses", "paths_per_second", "rays", "idle_share", "processor_share", "bad_messages"});
     return view;
 }
 

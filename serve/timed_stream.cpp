@@ -48,15 +48,22 @@ ssize_t TimedStream::read(char* to, std::size_t size) {
     return static_cast<ssize_t>(count);
 }
 
+bool TimedStream::has_time_to_write() const {
+    const double seconds = writing_.seconds();
+    return seconds < limits_.response_seconds && (seconds < limits_.request_seconds || !others_wait_());
+}
+
 ssize_t TimedStream::write(const char* from, std::size_t size) {
     if (!wrote_) writing_.restart();
     wrote_ = true;
-    while (true) {
+    while (has_time_to_write()) {
         const ssize_t sent = ::send(socket_, from, size, MSG_DONTWAIT | MSG_NOSIGNAL);
         if (sent >= 0) return sent;
         if (errno != EAGAIN && errno != EINTR) return -1;
-        if (!wait(POLLOUT, writing_, limits_.response_seconds)) return -1;
+        const Timer pause;
+        if (!wait(POLLOUT, pause, kSlice) && stopping_) return -1;
     }
+    return -1;
 }
 
 void TimedStream::end() {

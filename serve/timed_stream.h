@@ -5,7 +5,9 @@
 
 #include <array>
 #include <atomic>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "common/base/timer.h"
 #include "serve/web_server.h"
@@ -16,9 +18,11 @@ namespace treefarm {
 /// bytes arrive: httplib's own limits restart with each byte.
 class TimedStream final : public httplib::Stream {
   public:
-    /// `stopping`: true ends any wait. All arguments must outlive the stream.
-    TimedStream(int socket, const WebLimits& limits, const std::atomic<bool>& stopping)
-        : socket_(socket), limits_(limits), stopping_(stopping) {}
+    /// `stopping`: true ends any wait. `others_wait`: whether the time of a response is short. `limits` and `stopping`
+    /// must outlive the stream.
+    TimedStream(int socket, const WebLimits& limits, const std::atomic<bool>& stopping,
+                std::function<bool()> others_wait)
+        : socket_(socket), limits_(limits), stopping_(stopping), others_wait_(std::move(others_wait)) {}
 
     bool is_readable() const override { return begin_ < end_; }
     bool is_writable() const override { return true; }
@@ -34,10 +38,12 @@ class TimedStream final : public httplib::Stream {
 
   private:
     bool wait(short events, const Timer& timer, double seconds) const;
+    bool has_time_to_write() const;
 
     const int socket_;
     const WebLimits& limits_;
     const std::atomic<bool>& stopping_;
+    const std::function<bool()> others_wait_;
     Timer reading_, writing_;
     bool wrote_ = false;
     std::array<char, 4096> buffer_{};

@@ -93,13 +93,20 @@ function table(heads, rows) {
     make('tbody', {}, ...rows.map(row => make('tr', {}, ...row.map((value, k) => cell('td', value, k)))))));
 }
 
+// Fraction of their processors that busy threads got; marked where other programs took most of the rest.
+function share(value) {
+  if (!known(value)) return '';
+  const text = Math.round(100 * value) + ' %';
+  return value < 0.5 ? make('strong', {textContent: 'had ' + text, title: 'Other programs use its processors, or it has more threads than processors.'}) : text;
+}
+
 function workersOf(view) {
   const farm = view.farm;
   if (!farm || farm.workers.length === 0) return null;
-  const heads = ['worker', 'state', 'paths/s', 'idle', 'losses', 'threads', 'host'].map(name => ({name, text: name === 'host' || name === 'state'}));
+  const heads = ['worker', 'state', 'paths/s', 'idle', 'processors', 'losses', 'threads', 'host'].map(name => ({name, text: name === 'host' || name === 'state'}));
   const rows = farm.workers.map(worker => [known(worker.worker) ? worker.worker : '', badge(worker.state || 'unknown'),
     worker.state === 'present' ? large(worker.paths_per_second) : '', known(worker.idle_share) ? Math.round(100 * worker.idle_share) + ' %' : '',
-    worker.losses || '', known(worker.threads) ? worker.threads : '', worker.host || '']);
+    share(worker.processor_share), worker.losses || '', known(worker.threads) ? worker.threads : '', worker.host || '']);
   const counts = [['reissued_units', 'units issued again'], ['copied_units', 'units copied for who was idle'],
     ['dropped_results', 'results too late to count'], ['bad_messages', 'bad messages']]
     .filter(([key]) => farm[key] > 0).map(([key, words]) => farm[key] + ' ' + words).join(' · ');

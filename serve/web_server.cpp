@@ -9,20 +9,24 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <string_view>
+#include <memory>
 #include <thread>
 #include <utility>
 
 #include "common/base/error.h"
-#include "serve/bounded_queue.h"
+#include "serve/pending_requests.h"
 #include "serve/timed_stream.h"
 
 namespace treefarm {
 
 namespace {
 
-constexpr std::string_view kTooMany =
-    "HTTP/1.1 503 Service Unavailable\r\nRetry-After: 1\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
+/// Runs each task in the accepting thread: it only passes the connection on.
+class NoQueue final : public httplib::TaskQueue {
+  public:
+    void enqueue(std::function<void()> task) override { task(); }
+    void shutdown() override {}
+};
 
 SiteRequest site_request(const httplib::Request& request) {
     SiteRequest asked;
@@ -53,7 +57,7 @@ std::string host_and_port(const std::string& address, int port) {
 class WebServer::Server final : public httplib::Server {
   public:
     Server(Respond respond, const WebLimits& limits) : respond_(std::move(respond)), limits_(limits) {
-        new_task_queue = [this] { return new BoundedQueue(limits_.threads, limits_.waiting); };
+        new_task_queue = [] { return new NoQueue; };
         // By default httplib shares a port with another process.
         set_socket_options([](socket_t socket) {
             const int yes = 1;
@@ -71,8 +75,9 @@ class WebServer::Server final : public httplib::Server {
     ~Server() override { end(); }
 
     void begin() {
+        ::listen(svr_sock_, SOMAXCONN);  // httplib lets five wait, and others knock again after a second or more
+        pending_ = std::make_unique<PendingRequests>(limits_, [this](int socket) { answer(socket); });
         thread_ = std::thread([this] {
-            accepting_ = std::this_thread::get_id();
             listen_after_bind();
             ended_ = true;
         });
@@ -85,32 +90,32 @@ class WebServer::Server final : public httplib::Server {
         if (!thread_.joinable()) return;
         httplib::Server::stop();
         thread_.join();
+        pending_.reset();
     }
 
   private:
     bool process_and_close_socket(socket_t socket) override {
-        if (std::this_thread::get_id() == accepting_.load()) {  // the queue is full
-            [[maybe_unused]] const ssize_t sent =
-                ::send(socket, kTooMany.data(), kTooMany.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
-        } else {
-            TimedStream stream(socket, limits_, stopping_);
-            bool closed = false;
-            process_request(stream, true, closed, [](httplib::Request& request) {
-                request.headers.erase(
-                    "Accept-Encoding");  // compressing what is requested each second would cost more than it saves
-                request.headers.erase("Range");
-                request.ranges.clear();
-            });
-            stream.end();
-        }
-        ::close(socket);
+        pending_->add(socket);
         return true;
+    }
+
+    void answer(int socket) {
+        TimedStream stream(socket, limits_, stopping_, [this] { return pending_->waits(); });
+        bool closed = false;
+        process_request(stream, true, closed, [](httplib::Request& request) {
+            request.headers.erase(
+                "Accept-Encoding");  // compressing what is requested each second would cost more than it saves
+            request.headers.erase("Range");
+            request.ranges.clear();
+        });
+        stream.end();
+        ::close(socket);
     }
 
     const Respond respond_;
     const WebLimits limits_;
     std::atomic<bool> stopping_ = false, ended_ = false;
-    std::atomic<std::thread::id> accepting_;
+    std::unique_ptr<PendingRequests> pending_;
     std::thread thread_;
 };
 

@@ -12,9 +12,9 @@ namespace treefarm {
 /// Limits of the clients' cost.
 struct WebLimits {
     std::size_t threads = 16;        ///< requests answered at the same time
-    std::size_t waiting = 64;        ///< connections waiting for a thread; further ones are closed
+    std::size_t waiting = 64;        ///< connections without a thread; one more closes the oldest
     double request_seconds = 5.0;    ///< until a request has arrived completely
-    double response_seconds = 30.0;  ///< until a response has been read completely
+    double response_seconds = 30.0;  ///< until a response has been read completely; request_seconds if others wait
     std::size_t request_bytes = 32 << 10;
 };
 

@@ -22,6 +22,8 @@ namespace treefarm {
 class TracerPool {
   public:
     TracerPool(unsigned threads, RenderUnit render);
+    /// Ends the threads after their present units. Threads that are still tracing after ten seconds are left
+    /// behind: a process must end even if one is stuck.
     ~TracerPool();
 
     /// Begins a pass, to which later units belong. Queued units are dropped; those being traced are delivered to their
@@ -43,23 +45,27 @@ class TracerPool {
 
     unsigned thread_count() const { return static_cast<unsigned>(threads_.size()); }
     /// Samples and rays traced since the start.
-    std::uint64_t samples() const { return samples_; }
-    std::uint64_t rays() const { return rays_; }
+    std::uint64_t samples() const { return state_->samples; }
+    std::uint64_t rays() const { return state_->rays; }
 
   private:
-    void run();
+    /// State shared with the threads, which may outlive the pool.
+    struct State {
+        RenderUnit render;
+        mutable std::mutex mutex;
+        std::condition_variable changed;
+        std::shared_ptr<PassWork> pass;
+        std::deque<WorkUnit> queue;
+        unsigned running = 0;
+        bool stop = false;
+        std::optional<std::string> failure;
+        std::atomic<std::uint64_t> samples{0}, rays{0};
+    };
+    static void run(State& state);
+    static void trace(State& state, PassWork& pass, const WorkUnit& unit, UnitOutput& output);
     void stop();
-    void trace(PassWork& pass, const WorkUnit& unit, UnitOutput& output);
 
-    RenderUnit render_;
-    mutable std::mutex mutex_;
-    std::condition_variable changed_;
-    std::shared_ptr<PassWork> pass_;
-    std::deque<WorkUnit> queue_;
-    unsigned running_ = 0;
-    bool stop_ = false;
-    std::optional<std::string> failure_;
-    std::atomic<std::uint64_t> samples_{0}, rays_{0};
+    const std::shared_ptr<State> state_ = std::make_shared<State>();
     std::vector<std::thread> threads_;
 };
 

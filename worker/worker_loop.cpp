@@ -11,6 +11,7 @@
 #include "common/comm/broadcast_chain.h"
 #include "common/comm/rest.h"
 #include "common/config/job_reader.h"
+#include "common/plan/forecast/memory.h"
 #include "common/protocol/fingerprint.h"
 #include "common/protocol/messages.h"
 #include "worker/silence_watch.h"
@@ -32,10 +33,6 @@ constexpr double kLeastUpdateSeconds = 0.05;
 
 /// Messages handled before the loop's other duties.
 constexpr int kMostLooks = 256;
-
-/// Bytes of pixels that are sent without waiting for the next update: many threads fill much memory in that time, and
-/// messages above a limit are refused (mpi_channel.h).
-constexpr std::size_t kBundleBytes = std::size_t{64} << 20;
 
 /// Limit of a reported failure's text in bytes.
 constexpr std::size_t kMostFailureBytes = 4096;

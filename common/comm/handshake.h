@@ -65,6 +65,8 @@ class ListenerHandshake {
 
     /// Whether the guest is authenticated. The session's reader then holds the first message.
     bool is_admitted() const { return reader_ && reader_->has_message(); }
+    /// Whether the guest has shown that it knows the secret, though perhaps by repeating another's bytes.
+    bool has_proof() const { return reader_.has_value(); }
     FrameReader take_reader();
     const JoinKey& sending_key() const { return keys_.to_guest; }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/comm/tcp_channel.h"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/socket.h>
 
@@ -10,6 +11,7 @@
 #include <cstring>
 #include <utility>
 
+#include "common/base/connection_limits.h"
 #include "common/base/error.h"
 #include "common/base/host.h"
 #include "common/base/timer.h"
@@ -144,21 +146,50 @@ void TcpChannel::move(bool reading) {
 }
 
 void TcpChannel::accept_all() {
-    while (auto accepted = accept_from(listener_.socket))
+    constexpr int kMostAtOnce = 64;  // a flood must not starve the guests
+    for (int k = 0; k < kMostAtOnce; ++k) {
+        auto accepted = accept_from(listener_.socket);
+        if (!accepted) return;
         adopt(std::move(accepted->first), accepted->second);
+    }
+}
+
+/// Closes the oldest of the unauthenticated connections from the address with most of them. Those with a proof go last.
+void TcpChannel::push_out() {
+    std::vector<std::list<Visitor>::iterator> candidates;
+    for (const bool proven : {false, true}) {
+        for (auto at = visitors_.begin(); at != visitors_.end(); ++at)
+            if (at->handshake.has_proof() == proven) candidates.push_back(at);
+        if (!candidates.empty()) break;
+    }
+    if (candidates.empty()) return;
+    std::vector<std::string> addresses;
+    for (const auto& at : candidates)
+        addresses.push_back(at->from.substr(0, at->from.rfind(" port ")));
+    const auto closed = candidates[connection_to_close(addresses)];
+    send_at_once(closed->socket, refusal_answer(JoinRefusal::crowded));
+    (void)::recv(closed->socket.fd(), scratch_.data(), scratch_.size(),
+                 MSG_DONTWAIT);  // unread data would destroy the answer
+    warn("a connection from " + closed->from + " was closed: " + std::to_string(visitors_.size()) +
+         " connections are not authenticated yet");
+    visitors_.erase(closed);
 }
 
 void TcpChannel::adopt(Socket socket, const std::string& from) {
     set_up(socket);
-    if (visitors_.size() >= limits_.most_unproven) {
-        send_at_once(socket, refusal_answer(JoinRefusal::crowded));
-        (void)::recv(socket.fd(), scratch_.data(), scratch_.size(),
-                     MSG_DONTWAIT);  // unread data would destroy the answer
-        warn("a connection from " + from + " was closed: " + std::to_string(limits_.most_unproven) +
-             " other connections are not authenticated yet");
-        return;
+    if (is_kept_for_files(socket.fd())) {
+        push_out();
+        socket = Socket(::fcntl(socket.fd(), F_DUPFD_CLOEXEC, 0));
+        if (!socket || is_kept_for_files(socket.fd())) {
+            warn("a connection from " + from + " was closed: too few descriptors are left (ulimit -n)");
+            return;
+        }
     }
     visitors_.push_back({std::move(socket), from, clock_(), {ticket_, options_.fingerprint, draw_join_key()}});
+    if (!see_to(visitors_.back(), true))  // what it has sent already may be its proof
+        visitors_.pop_back();
+    else if (visitors_.size() > limits_.most_unproven)
+        push_out();
 }
 
 /// Handles data from an unauthenticated connection. Returns the fault, if any.

@@ -24,8 +24,8 @@ struct GuestOptions {
 
 /// Limits of connections.
 struct GuestLimits {
-    std::size_t most_unproven = 64;                    ///< unauthenticated connections at a time
-    double unproven_seconds = 5;                       ///< seconds that a connection may stay unauthenticated
+    std::size_t most_unproven = 64;  ///< unauthenticated connections at a time; one more closes the oldest
+    double unproven_seconds = 5;     ///< seconds that a connection may stay unauthenticated
     std::size_t most_unsent = std::size_t{256} << 20;  ///< queued bytes beyond which a guest is closed ...
     double unsent_seconds = 10;                        ///< ... unless they decrease within this time
 };
@@ -89,6 +89,7 @@ class TcpChannel final : public Channel {
     std::string hear(Visitor& visitor);
     bool see_to(Visitor& visitor, bool ready);
     void move(bool reading);
+    void push_out();
     void give_up_slow(Guest& guest);
     void warn(const std::string& text);
 

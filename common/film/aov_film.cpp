@@ -3,27 +3,13 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstring>
 
 #include "common/base/error.h"
 #include "common/film/each_done.h"
+#include "common/film/radiance_limit.h"
 
 namespace treefarm {
-
-namespace {
-
-/// Whether the value is a possible sum of samples, with margin for further addition.
-bool is_sum(double value) {
-    constexpr double kMost = 1e60;  // at most 10^38 times 10^9 samples
-    return value > -kMost && value < kMost;
-}
-
-bool is_sum(const Rgb64& value) {
-    return is_sum(value.x) && is_sum(value.y) && is_sum(value.z);
-}
-
-}  // namespace
 
 void reduce_aov_blocks(const AovLayout& layout, std::span<double> blocks) {
     const std::size_t row = layout.size(), count = blocks.size() / row;
@@ -42,16 +28,16 @@ AovFilm::AovFilm(const AovLayout& layout, int width, int height, std::uint32_t c
       values_(layout.size() * static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
       direct_(layout.direct() ? width : 0, layout.direct() ? height : 0, chunks) {}
 
-void AovFilm::check(const WorkUnit& unit, const AovPixels& pixels) const {
+void AovFilm::check(const WorkUnit& unit, const AovPixels& pixels, std::uint32_t samples, bool is_signed) const {
     if (pixels.values.size() != std::size_t{layout_.size()} * unit.pixel_count() ||
         pixels.direct.size() != (layout_.direct() ? unit.pixel_count() : 0))
         throw FormatError("a work unit with AOVs that nobody asked for, or without those asked for");
-    if (!std::all_of(pixels.values.begin(), pixels.values.end(), [](double v) { return is_sum(v); }))
-        throw FormatError("an AOV that is no finite number");
+    if (!std::all_of(pixels.values.begin(), pixels.values.end(), [&](double v) { return is_sum_of(samples, v); }))
+        throw FormatError("an AOV that is not finite, or too large");
     for (const PixelEstimate& pixel : pixels.direct)
         for (const Moments& half : pixel.half)
-            if (!is_sum(half.mean) || !std::isfinite(half.m2.x + half.m2.y + half.m2.z))
-                throw FormatError("direct light that is no finite number");
+            if (!are_moments_of_radiance(half, is_signed))
+                throw FormatError("direct light that is negative, not finite or too large");
 }
 
 void AovFilm::add(const WorkUnit& unit, const AovPixels& pixels) {

@@ -28,8 +28,9 @@ class AovFilm {
   public:
     AovFilm(const AovLayout& layout, int width, int height, std::uint32_t chunks);
 
-    /// Throws FormatError unless the AOVs of a unit have its size and finite numbers.
-    void check(const WorkUnit& unit, const AovPixels& pixels) const;
+    /// Throws FormatError unless the AOVs of a unit have its size, and numbers that `samples` samples a pixel may have;
+    /// `is_signed`: the filter has negative lobes.
+    void check(const WorkUnit& unit, const AovPixels& pixels, std::uint32_t samples, bool is_signed) const;
     /// Adds the AOVs of a unit, after check(); each pixel and chunk once.
     void add(const WorkUnit& unit, const AovPixels& pixels);
     /// The state as bytes, as PassFilm::encode(); restore() likewise.

@@ -9,19 +9,19 @@
 namespace treefarm {
 
 void SplittingSums::add(const SplittingSums& other) {
-    split_mean += other.split_mean;
-    unsplit_mean += other.unsplit_mean;
-    split_variance += other.split_variance;
-    unsplit_variance += other.unsplit_variance;
+    add_saturating(split_mean, other.split_mean);
+    add_saturating(unsplit_mean, other.unsplit_mean);
+    add_saturating(split_variance, other.split_variance);
+    add_saturating(unsplit_variance, other.unsplit_variance);
 }
 
 void LightSubpathSums::add(const LightSubpathSums& other) {
-    samples += other.samples;
-    both_mean += other.both_mean;
-    alone_mean += other.alone_mean;
-    both_variance += other.both_variance;
-    alone_variance += other.alone_variance;
-    alone_rays += other.alone_rays;
+    add_saturating(samples, other.samples);
+    add_saturating(both_mean, other.both_mean);
+    add_saturating(alone_mean, other.alone_mean);
+    add_saturating(both_variance, other.both_variance);
+    add_saturating(alone_variance, other.alone_variance);
+    add_saturating(alone_rays, other.alone_rays);
 }
 
 void EmissionSums::add(const EmissionSums& other) {
@@ -54,6 +54,7 @@ void TraceStats::add(const TraceStats& other) {
     tails.add(other.tails);
     trace_seconds += other.trace_seconds;
     splat_seconds += other.splat_seconds;
+    busy_seconds += other.busy_seconds;
     for (std::size_t i = 0; i < kTracePhases; ++i)
         phase_seconds[i] += other.phase_seconds[i];
 }

@@ -80,6 +80,7 @@ struct TraceStats {
     double trace_seconds = 0;                          ///< thread-seconds in the tile renderer
     double splat_seconds = 0;                          ///< thread-seconds of adding records to the guide's sums
     std::array<double, kTracePhases> phase_seconds{};  ///< parts of trace_seconds; zeros if not timed
+    double busy_seconds = 0;  ///< thread-seconds with a unit, also those in which the thread had no processor
 
     static constexpr std::size_t kMaxReported = 16;
     void add(const TraceStats& other);

@@ -9,7 +9,7 @@
 namespace treefarm {
 
 /// Version of the protocol, raised whenever a message changes its form; peers of another version are refused.
-inline constexpr std::uint32_t kProtocolVersion = 15;
+inline constexpr std::uint32_t kProtocolVersion = 16;
 
 /// Kind of a message. The numbers are on the wire: append only (docs/design/protocol.md).
 enum class Kind : std::uint8_t {

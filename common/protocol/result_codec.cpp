@@ -94,6 +94,7 @@ void write_stats(ByteWriter& writer, const TraceStats& s) {
     writer.put(s.splat_seconds);
     for (const double seconds : s.phase_seconds)
         writer.put(seconds);
+    writer.put(s.busy_seconds);
     writer.put_varint(s.emission.paths.size());
     for (std::size_t i = 0; i < s.emission.paths.size(); ++i) {
         writer.put_varint(s.emission.paths[i]);
@@ -156,6 +157,7 @@ TraceStats read_stats(ByteReader& reader) {
     s.splat_seconds = reader.get<double>();
     for (double& seconds : s.phase_seconds)
         seconds = reader.get<double>();
+    s.busy_seconds = reader.get<double>();
     const std::size_t emitters = reader.get_count(2);
     for (std::size_t i = 0; i < emitters; ++i) {
         s.emission.paths.push_back(reader.get_varint());

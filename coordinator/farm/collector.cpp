@@ -5,15 +5,13 @@
 #include <cmath>
 
 #include "common/base/timer.h"
+#include "common/film/radiance_limit.h"
+#include "common/math/saturating.h"
 #include "common/plan/schedule/learning.h"
 
 namespace treefarm {
 
 namespace {
-
-bool is_amount(double value) {
-    return value >= 0 && std::isfinite(value);
-}
 
 bool is_duration(double seconds) {
     constexpr double kLongest = 1e10;  // three hundred years
@@ -50,14 +48,10 @@ void Collector::check_pixels(const UnitResult& result) const {
     const PixelEstimate& first = result.pixels.front();  // the codec gives all pixels of a unit the same counts
     if (first.half[0].n != counts[0] || first.half[1].n != counts[1])
         throw FormatError("a work unit with the wrong number of samples per pixel");
-    const auto possible = [](const Rgb64& v) { return is_amount(v.x) && is_amount(v.y) && is_amount(v.z); };
     for (const PixelEstimate& pixel : result.pixels)
         for (const Moments& half : pixel.half)
-            if (!(signed_pixels_
-                      ? (std::isfinite(half.mean.x) && std::isfinite(half.mean.y) && std::isfinite(half.mean.z))
-                      : possible(half.mean)) ||
-                !possible(half.m2))
-                throw FormatError("a pixel that is negative or not finite");
+            if (!are_moments_of_radiance(half, signed_pixels_))
+                throw FormatError("a pixel that is negative, not finite or too large");
 }
 
 void Collector::check_stats(const Result& result) const {
@@ -67,13 +61,17 @@ void Collector::check_stats(const Result& result) const {
         paths += weight(unit.unit) * (unit.unit.kind == UnitKind::tile ? unit_samples(unit.unit) : 1);
     if (s.paths != paths || s.nonzero_paths > paths || s.invalid_samples > paths)
         throw FormatError("counts of paths that do not fit the work units");
+    for (const std::uint64_t count :
+         {s.rays, s.shadow_rays, s.vertices, s.records, s.light_subpaths.samples, s.light_subpaths.alone_rays})
+        if (count > kMostClaim) throw FormatError("a count that is too large");
+    if (s.split_path_rays > s.rays) throw FormatError("more rays of split paths than rays");
     std::uint64_t light_paths = 0;
     for (std::size_t i = 0; i < s.emission.paths.size(); ++i) {
         light_paths += std::min(s.emission.paths[i], paths + 1);
         if (light_paths > paths || s.emission.squares[i] > kMostSplatSum)
             throw FormatError("light paths that do not fit the work units");
     }
-    if (!is_duration(s.trace_seconds) || !is_duration(s.splat_seconds) ||
+    if (!is_duration(s.trace_seconds) || !is_duration(s.splat_seconds) || !is_duration(s.busy_seconds) ||
         !std::all_of(s.phase_seconds.begin(), s.phase_seconds.end(), is_duration))
         throw FormatError("an impossible number of seconds");
     if (s.first_invalid.size() > TraceStats::kMaxReported)
@@ -104,7 +102,8 @@ Verdict Collector::take(int worker, Result result, Ledger& ledger) {
     std::vector<WorkUnit> units;
     for (const UnitResult& unit : result.units) {
         check_pixels(unit);
-        if (unit.unit.kind == UnitKind::tile) aovs_.check(unit.unit, unit.aovs);
+        if (unit.unit.kind == UnitKind::tile)
+            aovs_.check(unit.unit, unit.aovs, unit_samples(unit.unit), signed_pixels_);
         units.push_back(unit.unit);
     }
     check_stats(result);

@@ -47,17 +47,26 @@ Farm::Farm(Channel& channel, const Job& job, Bytes scene, std::uint64_t fingerpr
       roster_(std::max(limits.lost, kLostHeartbeats * job.farm.heartbeat_seconds)) {}
 
 void Farm::gather(const std::function<bool()>& interrupted) {
-    std::size_t expected = 0;  // guests are not waited for
+    const auto is_expected = [&](int peer) {
+        return !channel_.is_guest(peer) && !turn_.absent.contains(peer) && !turn_.left.contains(peer);
+    };
+    std::size_t expected = 0;
     for (const int peer : channel_.peers())
-        expected += !channel_.is_guest(peer) && !turn_.absent.contains(peer) && !turn_.left.contains(peer);
-    expected = std::max<std::size_t>(1, expected);
+        expected += is_expected(peer);
+    // Guests are not waited for, unless there is nobody else.
+    const auto all_are_there = [&] {
+        std::size_t there = 0;
+        for (const auto& [peer, member] : roster_.members())
+            there += expected == 0 ? member.state == MemberState::present : is_expected(peer);
+        return there >= std::max<std::size_t>(1, expected);
+    };
     if (turn_.number > 0) {
         tell_workers(channel_, Rejoin{turn_.number});
         for (const int peer : channel_.peers())
             told_job_.insert(peer);
     }
     const Timer timer;
-    while (roster_.members().size() < expected && timer.seconds() < limits_.gather && !interrupted())
+    while (!all_are_there() && timer.seconds() < limits_.gather && !interrupted())
         step();
     if (interrupted()) return;
     if (roster_.present_count() == 0)
@@ -117,9 +126,11 @@ void Farm::fill(PartialPass& partial) const {
 }
 
 void Farm::announce(int peer) {
-    const double seconds =
-        result_seconds(job_.farm.update_seconds, pass_->plan.layers.splats.pixels, roster_.present_count());
-    tell(peer, PassBegin{pass_->plan, pass_->tree.size(), pass_->tree_hash, seconds});
+    tell(peer, PassBegin{pass_->plan, pass_->tree.size(), pass_->tree_hash, pass_result_seconds()});
+}
+
+double Farm::pass_result_seconds() const {
+    return result_seconds(job_.farm.update_seconds, pass_->plan.layers.splats.pixels, roster_.present_count());
 }
 
 BlobName Farm::name_of(Blob blob) const {
@@ -283,8 +294,21 @@ void Farm::beat_during(const std::function<void()>& work) {
 Speeds Farm::speeds() const {
     std::map<int, WorkerRate> rates;
     for (const auto& [peer, member] : roster_.members())
-        if (member.state == MemberState::present) rates[peer] = {member.hello.threads, member.speed.paths_per_second()};
+        if (member.state == MemberState::present)
+            rates[peer] = worker_rate(member.speed, member.hello.threads, ledger_->outstanding_paths(peer),
+                                      pass_result_seconds(), clock_.seconds());
     return Speeds(rates);
+}
+
+/// Seconds that a copy of a unit at `member` is expected to save, if `holder` has it.
+double Farm::copy_gain(const Member& member, int holder, const WorkUnit& unit, const Speeds& all) const {
+    // A unit that may kill its workers is not copied from one that may be dead.
+    constexpr double kHeartbeats = 3.0;
+    const auto found = roster_.members().find(holder);
+    if (ledger_->is_suspect(unit) && found != roster_.members().end() &&
+        clock_.seconds() - found->second.last_heard > kHeartbeats * job_.farm.heartbeat_seconds)
+        return 0;
+    return all.gain(member.peer, ledger_->paths(unit), holder, ledger_->outstanding_paths(holder));
 }
 
 /// Gives a worker its portion of the waiting units. A worker that got less than it requested requests again when it has
@@ -292,13 +316,16 @@ Speeds Farm::speeds() const {
 bool Farm::serve(Member& member, const Speeds& all) {
     if (ledger_->waiting() + ledger_->suspects() == 0) return serve_copies(member, all);
     const Portion portion = all.portion(member.peer, member.credit, member.queued, ledger_->waiting_paths());
-    Work work{pass_->plan.index, ledger_->issue(member.peer, portion)};
+    const bool nothing_waited = ledger_->waiting() == 0;
+    Work work{pass_->plan.index, ledger_->issue(member.peer, portion, all.is_overdue(member.peer))};
+    if (work.units.empty() && nothing_waited) return serve_copies(member, all);
     work.alone = ledger_->has_suspect(member.peer);
     for (const WorkUnit& unit : work.units)
         member.queued += ledger_->paths(unit);
     if (!work.units.empty()) {
         member.credit -= static_cast<std::uint32_t>(work.units.size());
         member.told_end = work.alone;
+        member.speed.begin(clock_.seconds());
         tell(member.peer, work);
     }
     if (ledger_->waiting() == 0) tell_end();
@@ -316,13 +343,12 @@ void Farm::tell_end() {
 /// Gives an idle worker copies of slower workers' units.
 bool Farm::serve_copies(Member& member, const Speeds& all) {
     if (member.credit == 0 || clock_.seconds() - ended_ < kSettleSeconds) return false;
-    Work work{pass_->plan.index, ledger_->issue_copies(member.peer, std::min(member.credit, member.hello.threads),
-                                                       [&](int holder, std::uint64_t paths) {
-                                                           return all.gain(member.peer, paths, holder,
-                                                                           ledger_->outstanding_paths(holder));
-                                                       })};
+    const auto gain = [&](int holder, const WorkUnit& unit) { return copy_gain(member, holder, unit, all); };
+    Work work{pass_->plan.index, ledger_->issue_copies(member.peer, std::min(member.credit, member.hello.threads), gain,
+                                                       all.is_overdue(member.peer))};
     if (work.units.empty()) return false;
     work.alone = true;
+    member.speed.begin(clock_.seconds());
     member.credit -= static_cast<std::uint32_t>(work.units.size());
     tell(member.peer, work);
     return true;

@@ -56,6 +56,9 @@ class Farm {
     /// Whether pixels may be negative, as in a film that is_signed(); otherwise negative ones are refused.
     void allow_negative(bool allowed) { negative_allowed_ = allowed; }
 
+    /// Refuses guests whose host has less memory than this, in bytes.
+    void require_of_guests(std::uint64_t bytes) { guest_bytes_ = bytes; }
+
     /// Announces a pass and sends its tree along the chain of present workers; before the first pass, the scene.
     /// `partial`: results from before a resume, or nullptr.
     void begin_pass(const PassPlan& plan, const AnyModel& tree, Bytes encoded_tree, int width, int height,
@@ -125,6 +128,8 @@ class Farm {
     void give_up(Member& member, MemberState state, const std::string& why);
     void announce(int peer);
     Speeds speeds() const;
+    double pass_result_seconds() const;
+    double copy_gain(const Member& member, int holder, const WorkUnit& unit, const Speeds& all) const;
     bool serve(Member& member, const Speeds& all);
     bool serve_copies(Member& member, const Speeds& all);
     void serve_all();
@@ -154,6 +159,7 @@ class Farm {
     Roster roster_;
     std::string debug_command_ = "treefarm render SCENE --debug-sample", debug_options_;
     bool negative_allowed_ = false;
+    std::uint64_t guest_bytes_ = 0;
     bool scene_sent_ = false;  ///< later workers get it at once
     std::optional<OpenPass> pass_;
     std::unique_ptr<Ledger> ledger_;

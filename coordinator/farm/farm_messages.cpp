@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/base/hash.h"
+#include "common/math/saturating.h"
 #include "coordinator/farm/farm.h"
 
 // Handling of each message. Any peer may send any bytes at any time: an invalid message costs its sender its
@@ -20,6 +21,16 @@ constexpr std::uint32_t kMostLives = 1000;
 
 /// Number of messages of one kind that are logged.
 constexpr std::uint64_t kMostLogged = 20;
+
+/// Limit of the seconds that a worker may claim, by its threads' time since the pass began.
+constexpr double kSecondsMargin = 60.0, kSecondsRatio = 2.0;
+
+void check_seconds(const TraceStats& stats, double most) {
+    double longest = std::max({stats.trace_seconds, stats.splat_seconds, stats.busy_seconds});
+    for (const double seconds : stats.phase_seconds)
+        longest = std::max(longest, seconds);
+    if (longest > most) throw FormatError("more seconds than its threads have had");
+}
 
 }  // namespace
 
@@ -104,7 +115,13 @@ void Farm::on(int peer, const Hello& m) {
         refuse(peer, m, "it has no threads to trace with");
         return;
     }
-    roster_.admit(peer, m, clock_.seconds());
+    if (channel_.is_guest(peer) && m.memory > 0 && m.memory < guest_bytes_) {
+        refuse(peer, m,
+               "its host has " + std::to_string(m.memory >> 20) + " MiB of memory left, and it is expected to need " +
+                   std::to_string(guest_bytes_ >> 20) + " MiB (farm.memory_check)");
+        return;
+    }
+    roster_.admit(peer, m, clock_.seconds()).is_guest = channel_.is_guest(peer);
     if (ledger_) ledger_->forgive(peer);
     log_->debug("worker {} on {} with {} threads", peer, m.host, m.threads);
     tell(peer, Welcome{static_cast<std::uint32_t>(peer), job_.farm.heartbeat_seconds, job_text_, scene_hash_,
@@ -146,9 +163,8 @@ void Farm::on(int peer, const Want& m) {
 }
 
 void Farm::on(Member& member, const Heartbeat& m) {
-    const bool busy = ledger_ && !ledger_->complete() && ledger_->outstanding(member.peer) > 0;
-    member.speed.beat(clock_.seconds(), m.samples, busy);
     member.progress = m;
+    member.progress.rays = std::min(m.rays, kMostClaim);
 }
 
 void Farm::on(int peer, Result&& m) {
@@ -162,8 +178,13 @@ void Farm::on(int peer, Result&& m) {
         ++dropped_results_;
         return;
     }
+    check_seconds(m.stats, kSecondsMargin + kSecondsRatio * member->hello.threads * (clock_.seconds() - pass_began_));
+    const std::uint64_t had = ledger_ ? ledger_->outstanding_paths(peer) : 0;
     const Verdict verdict = collector_ ? collector_->take(peer, std::move(m), *ledger_) : Verdict::protocol_error;
     if (verdict == Verdict::protocol_error) throw FormatError("a result for work that the worker does not have");
+    const std::uint64_t paths = verdict == Verdict::accepted ? had - ledger_->outstanding_paths(peer) : 0;
+    if (const std::size_t more = ledger_->outstanding(peer); paths > 0 || more == 0)
+        member->speed.deliver(clock_.seconds(), paths, more > 0);
     if (verdict == Verdict::late) {
         ++dropped_results_;
         log_->debug("a result of worker {} was dropped: others were quicker", peer);
@@ -172,7 +193,11 @@ void Farm::on(int peer, Result&& m) {
     for (Member* other : roster_.present())
         if (std::vector<WorkUnit> done = ledger_->take_superseded(other->peer); !done.empty())
             tell(other->peer, Drop{pass_->plan.index, std::move(done)});
-    if (ledger_->complete()) return;
+    if (ledger_->complete()) {  // whoever still has units has delivered none of them
+        for (Member* other : roster_.present())
+            other->speed.deliver(clock_.seconds(), 0, false);
+        return;
+    }
     if (ledger_->waiting() == 0 || ledger_->outstanding(peer) == 0) serve_all();
 }
 

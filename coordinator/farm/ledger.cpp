@@ -2,6 +2,7 @@
 #include "coordinator/farm/ledger.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace treefarm {
 
@@ -69,7 +70,7 @@ bool Ledger::cut_front(std::uint64_t most_paths) {
 }
 
 void Ledger::hold(const WorkUnit& unit, int worker) {
-    holders_[unit] = {worker, -1, issued_++};
+    holders_[unit] = {{worker}, issued_++};
     burden(worker, unit);
 }
 
@@ -92,10 +93,10 @@ bool Ledger::has_suspect(int worker) const {
     });
 }
 
-std::vector<WorkUnit> Ledger::issue(int worker, Portion portion) {
+std::vector<WorkUnit> Ledger::issue(int worker, Portion portion, bool overdue) {
     std::vector<WorkUnit> units;
-    if (portion.units == 0 || (!deaths_.empty() && has_suspect(worker))) return units;
-    if (!suspects_.empty() && outstanding(worker) == 0) {
+    if (portion.units == 0 || (!overdue && !deaths_.empty() && has_suspect(worker))) return units;
+    if (!suspects_.empty() && (overdue || outstanding(worker) == 0)) {
         units.push_back(suspects_.front());
         suspects_.pop_front();
     }
@@ -117,9 +118,9 @@ std::vector<WorkUnit> Ledger::issue(int worker, Portion portion) {
 }
 
 std::vector<WorkUnit> Ledger::issue_copies(int worker, std::size_t count,
-                                           const std::function<double(int, std::uint64_t)>& gain) {
+                                           const std::function<double(int, const WorkUnit&)>& gain, bool overdue) {
     std::vector<WorkUnit> units;
-    if (!waiting_.empty() || !suspects_.empty() || outstanding(worker) != 0) return units;
+    if (!waiting_.empty() || (!overdue && outstanding(worker) != 0)) return units;
     struct Candidate {
         double gain;
         std::uint64_t issued;
@@ -127,8 +128,10 @@ std::vector<WorkUnit> Ledger::issue_copies(int worker, std::size_t count,
     };
     std::vector<Candidate> candidates;
     for (const auto& [unit, holders] : holders_) {
-        if (holders.second >= 0 || holders.first == worker || deaths_.contains(unit)) continue;
-        const double saved = gain(holders.first, paths(unit));
+        if (holders.has(worker)) continue;
+        double saved = std::numeric_limits<double>::infinity();
+        for (const int other : holders.workers)
+            saved = std::min(saved, gain(other, unit));
         if (saved > 0) candidates.push_back({saved, holders.issued, unit});
     }
     std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
@@ -137,7 +140,7 @@ std::vector<WorkUnit> Ledger::issue_copies(int worker, std::size_t count,
     for (const Candidate& candidate : candidates) {
         if (units.size() == count) break;
         units.push_back(candidate.unit);
-        holders_[candidate.unit].second = worker;
+        holders_[candidate.unit].workers.push_back(worker);
         burden(worker, candidate.unit);
     }
     copies_ += units.size();
@@ -163,11 +166,10 @@ Verdict Ledger::accept(int worker, std::span<const WorkUnit> units) {
     if (verdict != Verdict::accepted) return verdict;
     for (const WorkUnit& unit : units) {
         const auto held = holders_.find(unit);
-        if (const int other = held->second.other_than(worker); other >= 0) {
-            superseded_.insert({other, unit});
-            lighten(other, unit);
+        for (const int holder : held->second.workers) {
+            if (holder != worker) superseded_.insert({holder, unit});
+            lighten(holder, unit);
         }
-        lighten(worker, unit);
         holders_.erase(held);
         deaths_.erase(unit);
         done_ += weight(unit);
@@ -184,15 +186,12 @@ void Ledger::put_back(const WorkUnit& unit) {
     waiting_paths_ += paths(unit);
 }
 
-/// Takes a unit from one of its workers. Returns whether no worker has it now, and it was put back.
+/// Takes a unit from one of its workers. Returns whether no worker has it any more, and it was put back.
 bool Ledger::release(std::map<WorkUnit, Holders>::iterator held, int worker) {
     const WorkUnit unit = held->first;
     lighten(worker, unit);
-    if (const int other = held->second.other_than(worker); other >= 0) {
-        held->second.first = other;
-        held->second.second = -1;
-        return false;
-    }
+    std::erase(held->second.workers, worker);
+    if (!held->second.workers.empty()) return false;
     holders_.erase(held);
     put_back(unit);
     return true;

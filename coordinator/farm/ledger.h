@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -52,17 +53,20 @@ class Ledger {
 
     /// Issues a portion to a worker. A unit with more paths than portion.piece is cut in halves, but into no piece that
     /// takes less time than its request. A unit over which a worker was lost is issued alone: to a worker without
-    /// units, which gets no other until it is done.
-    std::vector<WorkUnit> issue(int worker, Portion portion);
+    /// units, which gets no other until it is done. `overdue`: the worker is idle though it has units, as with a thread
+    /// that is stuck; it may then get one as well.
+    std::vector<WorkUnit> issue(int worker, Portion portion, bool overdue = false);
 
     /// Whether the worker has a unit that was issued alone.
     bool has_suspect(int worker) const;
 
-    /// Issues second copies to an idle worker, once no unit waits: units without a copy, of the worker with most paths
-    /// to go, those first that it will begin last. `gain(other, paths)`: expected saving of such a copy in seconds;
-    /// none is issued unless it is above 0.
+    /// Issues copies to an idle worker, once no unit waits, of the units of workers with most paths to go, those first
+    /// that they will begin last. `gain(other, unit)`: expected saving in seconds of a copy of what `other` has; none
+    /// is issued unless it is above 0 for each worker that has the unit or a copy. `overdue`: as in issue().
     std::vector<WorkUnit> issue_copies(int worker, std::size_t count,
-                                       const std::function<double(int, std::uint64_t)>& gain);
+                                       const std::function<double(int, const WorkUnit&)>& gain, bool overdue = false);
+    /// Whether a worker was lost while it had this unit.
+    bool is_suspect(const WorkUnit& unit) const { return deaths_.contains(unit); }
 
     /// Verdict on a result with these units, without accepting it.
     Verdict judge(int worker, std::span<const WorkUnit> units) const;
@@ -104,12 +108,11 @@ class Ledger {
     std::uint64_t done() const { return done_; }
 
   private:
-    /// Workers that have a unit: the first, and the one with a copy (-1: none).
+    /// Workers that have a unit or a copy of it.
     struct Holders {
-        int first = -1, second = -1;
+        std::vector<int> workers;
         std::uint64_t issued = 0;  ///< sequence number of the first issue
-        bool has(int worker) const { return first == worker || second == worker; }
-        int other_than(int worker) const { return first == worker ? second : first; }
+        bool has(int worker) const { return std::find(workers.begin(), workers.end(), worker) != workers.end(); }
     };
 
     bool cut_front(std::uint64_t paths);

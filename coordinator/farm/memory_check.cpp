@@ -30,23 +30,22 @@ std::string who(const HostNeed& need) {
     return workers.empty() ? "the coordinator" : "the coordinator and " + workers;
 }
 
-/// Memory still to be allocated; the scene is in memory already.
-std::uint64_t still_to_come(const MemoryPlan& plan) {
+}  // namespace
+
+std::uint64_t still_to_come(std::span<const MemoryItem> items) {
     std::uint64_t bytes = 0;
-    for (const MemoryItem& item : plan.coordinator)
-        if (item.name != "scene") bytes += item.bytes;
+    for (const MemoryItem& item : items)
+        if (item.name != "scene" && item.name != kProgramMemory) bytes += item.bytes;
     return bytes;
 }
 
-}  // namespace
-
 void check_memory(const MemoryPlan& plan, const Host& own, const Roster& roster, const std::string& scene) {
     std::map<std::string, HostNeed> hosts;
-    hosts[own.name] = {own.available_bytes, still_to_come(plan), 0, true};
+    hosts[own.name] = {own.available_bytes, still_to_come(plan.coordinator), 0, true};
     for (const auto& [peer, member] : roster.members()) {
-        if (member.state != MemberState::present) continue;
+        if (member.state != MemberState::present || member.is_guest) continue;
         HostNeed& need = hosts[member.hello.host];
-        need.bytes += plan.worker_bytes();
+        need.bytes += still_to_come(plan.worker);
         ++need.workers;
         if (!need.coordinator && member.hello.memory > 0)  // the least that its processes reported
             need.available = need.available == 0 ? member.hello.memory : std::min(need.available, member.hello.memory);

@@ -22,6 +22,7 @@ enum class MemberState : std::uint8_t {
 struct Member {
     int peer = 0;
     Hello hello;
+    bool is_guest = false;  ///< it joined by itself: what it says of itself concerns nobody else
     MemberState state = MemberState::present;
     double last_heard = 0;           ///< time of the last message, in seconds of the coordinator's clock
     std::uint32_t credit = 0;        ///< units requested and not issued yet

@@ -64,6 +64,7 @@ void fill_from_collector(PassReport& report, const Collector& collector) {
     for (const auto& [worker, contribution] : collector.contributions()) {
         const double trace = contribution.stats.trace_seconds;
         s.worker[worker] = trace + contribution.stats.splat_seconds;
+        s.busy[worker] = contribution.stats.busy_seconds;
         s.trace.mean += trace / static_cast<double>(collector.contributions().size());
         if (first || trace < s.trace.min) s.trace.min = trace;
         if (first || trace > s.trace.max) {
@@ -74,8 +75,15 @@ void fill_from_collector(PassReport& report, const Collector& collector) {
     }
 }
 
+std::optional<double> PassSeconds::processor_share(int number) const {
+    const auto found = busy.find(number);
+    if (found == busy.end() || !(found->second > 0)) return std::nullopt;
+    return std::clamp(worker.at(number) / found->second, 0.0, 1.0);
+}
+
 void count_idle(PassReport& report) {
-    report.seconds.idle = std::max(0.0, report.seconds.all * report.threads - report.core_seconds());
+    const double busy = std::max(report.stats.busy_seconds, report.core_seconds());
+    report.seconds.idle = std::max(0.0, report.seconds.all * report.threads - busy);
 }
 
 }  // namespace treefarm

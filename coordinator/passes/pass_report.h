@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "common/film/combine.h"
@@ -41,7 +42,11 @@ struct PassSeconds {
     Spread trace;                  ///< thread-seconds tracing, per worker
     double splat = 0;              ///< thread-seconds adding records, all workers
     std::map<int, double> worker;  ///< thread-seconds tracing and adding records, per worker
-    double idle = 0;               ///< thread-seconds without tracing or adding, or waiting for a processor
+    std::map<int, double> busy;    ///< thread-seconds with a unit, per worker; not of a part before a resume
+    double idle = 0;               ///< thread-seconds without a unit
+
+    /// Fraction of the processors' time that a worker's threads got while they had a unit; no value if unknown.
+    std::optional<double> processor_share(int number) const;
 
     /// Seconds of the coordinator's clock, by name.
     std::map<std::string, double> phases() const {

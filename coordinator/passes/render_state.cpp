@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/passes/render_state.h"
 
+#include <algorithm>
+#include <cmath>
 #include <future>
+#include <limits>
 #include <utility>
 
 #include "common/base/hash.h"
@@ -173,6 +176,18 @@ void describe_image(const RenderState& state, const Resolved& job, DevelopedStat
     developed.image_hash = hash.get();
     last_pass = variance.get();
     developed.error = error.get();
+    require_finite(image, developed.error);
+}
+
+void require_finite(const CombinedImage& image, const ErrorEstimate& error) {
+    constexpr double kMost = std::numeric_limits<float>::max();
+    const bool fits = std::all_of(image.mean.begin(), image.mean.end(), [](const Rgb64& v) {
+        return std::abs(v.x) <= kMost && std::abs(v.y) <= kMost && std::abs(v.z) <= kMost;
+    });
+    if (!fits || !std::isfinite(error.rmse) || !std::isfinite(error.high))
+        throw RunError(
+            "the image or its error is not finite: some result or checkpoint was wrong; render again, into another "
+            "run directory");
 }
 
 void judge(RenderState& state, const Resolved& job, const CombinedImage& image, std::size_t width, PassReport& report) {

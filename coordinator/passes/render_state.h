@@ -64,7 +64,10 @@ struct DevelopedState {
 void add_film(RenderState& state, const Resolved& job, CollectedPass pass);
 /// Combines the films, and measures their noise if it is unknown.
 void combine_films(RenderState& state, const Resolved& job, DevelopedState& developed);
-/// Computes the image's other figures, including the last pass's variance, in parallel threads.
+/// Throws RunError for an image that floats do not hold, or whose error is infinite: it is no result.
+void require_finite(const CombinedImage& image, const ErrorEstimate& error);
+/// Computes the image's other figures, including the last pass's variance, in parallel threads. Throws as
+/// require_finite().
 void describe_image(const RenderState& state, const Resolved& job, DevelopedState& developed, PassVariance& last_pass);
 /// Verdicts on guiding, splitting, light subpaths and, in unguided passes, next event, from the pass's figures and the
 /// combined image. Sets those of the report.

@@ -104,6 +104,7 @@ class RenderRun {
         join_listener_.emplace(channel_, request_.content.job.farm, request_.origin.fingerprint.hash(),
                                directory_.path(), log_);
         enter(LifePhase::gather);
+        if (checks_memory(request_)) farm_.require_of_guests(still_to_come(request_.content.plan.memory.worker));
         farm_.gather(interrupted_);
         if (request_.start.checkpoint) {
             result_.interrupted = interrupted_();

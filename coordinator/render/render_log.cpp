@@ -83,6 +83,15 @@ void RenderLog::tell_pass(const PassReport& pass, const CombinedImage& image, st
         log_->warn("{}: {} capped splats, {} saturated sums of splats, {} invalid splats", name, pass.splat_caps.capped,
                    pass.saturated_splats, pass.splat_caps.rejected);
     if (pass.plan.index >= kPassesInTheDark) tell_if_black(image, pass.spp_done);
+    tell_if_starved(pass);
+}
+
+/// Warns, once for each worker, of processors that its threads did not get.
+void RenderLog::tell_if_starved(const PassReport& pass) {
+    for (const auto& [worker, busy] : pass.seconds.busy)
+        if (const std::string text = processor_time_[worker].add(worker, busy, pass.seconds.worker.at(worker));
+            !text.empty())
+            log_->warn("{}", text);
 }
 
 /// Logs, once, the probable cause of a black image.

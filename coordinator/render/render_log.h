@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 
 #include "coordinator/render/render_observer.h"
 #include "coordinator/render/render_request.h"
 #include "coordinator/run/run_report.h"
+#include "coordinator/words/processor_time.h"
 
 namespace treefarm {
 
@@ -31,6 +33,7 @@ class RenderLog {
     std::string replay_options() const;
 
   private:
+    void tell_if_starved(const PassReport& pass);
     void tell_if_black(const CombinedImage& image, std::uint32_t spp);
     void tell_result(const RenderResult& result, double elapsed_seconds);
     std::string budget_text(const NextPass& first) const;
@@ -41,6 +44,7 @@ class RenderLog {
     const std::filesystem::path folder_;  ///< run directory
     const Log log_;
     bool reported_black_ = false;
+    std::map<int, ProcessorTime> processor_time_;  ///< by worker, of all passes
 };
 
 /// Whether a result's error is above the request's target.

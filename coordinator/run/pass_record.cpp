@@ -54,6 +54,7 @@ std::vector<Figure> figures(const PassReport& r) {
         timed("profile_record", TracePhase::record),
         {"splat_seconds", r.seconds.splat},
         {"idle_seconds", r.seconds.idle},
+        {"busy_seconds", r.stats.busy_seconds},
         {"merge_seconds", r.seconds.merge},
         {"refine_seconds", r.seconds.refine},
         {"film_seconds", r.seconds.film},

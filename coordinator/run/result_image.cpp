@@ -2,6 +2,7 @@
 #include "coordinator/run/result_image.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "common/image/png.h"
 
@@ -10,11 +11,12 @@ namespace treefarm {
 namespace {
 
 void add_layer(Image& image, const std::string& layer, const std::vector<Rgb64>& values) {
+    constexpr double kMost = std::numeric_limits<float>::max();
     const char* const components[] = {"R", "G", "B"};
     for (int c = 0; c < 3; ++c) {
         const std::span<float> channel = image.add_channel(channel_name(layer, components[c]));
         for (std::size_t p = 0; p < values.size(); ++p)
-            channel[p] = static_cast<float>(values[p][c]);
+            channel[p] = static_cast<float>(std::min(values[p][c], kMost));  // a variance may be larger
     }
 }
 

@@ -58,11 +58,17 @@ std::string text_of(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-/// Fraction of the last finished pass in which a worker's threads neither traced nor recorded; null if unknown.
+/// Fraction of the last finished pass in which a worker's threads had no unit; null if unknown.
 Json idle_share(const Member& member, const PassReport* last) {
-    if (!last || !last->seconds.worker.contains(member.peer)) return nullptr;
+    if (!last || !last->seconds.busy.contains(member.peer)) return nullptr;
     const double all = last->seconds.all * member.hello.threads;
-    return all > 0 ? Json(std::clamp(1 - last->seconds.worker.at(member.peer) / all, 0.0, 1.0)) : Json();
+    return all > 0 ? Json(std::clamp(1 - last->seconds.busy.at(member.peer) / all, 0.0, 1.0)) : Json();
+}
+
+/// PassSeconds::processor_share() of the last finished pass; null if unknown.
+Json processor_share(const Member& member, const PassReport* last) {
+    const auto share = last ? last->seconds.processor_share(member.peer) : std::nullopt;
+    return share ? Json(*share) : Json();
 }
 
 /// Number of losses of a worker while it was needed.
@@ -81,6 +87,7 @@ Json worker_json(const Member& member, const PassReport* last) {
             {"paths_per_second", speed ? Json(*speed) : Json()},
             {"rays", member.progress.rays},
             {"idle_share", idle_share(member, last)},
+            {"processor_share", processor_share(member, last)},
             {"bad_messages", member.bad_messages}};
 }
 

@@ -129,6 +129,26 @@ TEST_F(JoinTest, TheOnlyWorkerMayDieWhereOthersMayJoin) {
     EXPECT_NE(guest_ends_.at(0), WorkerEnd::orphaned) << "it is sent away, in order if the barred one is heard in time";
 }
 
+TEST_F(JoinTest, AGuestThatOnlyClaimsProgressHoldsNobodyUp) {
+    open(1);
+    std::atomic<bool> has_work = false;
+    renderers_[0] = make_patient(has_work);
+    start_guest([&, samples = std::uint64_t{0}](Bytes& bytes) mutable {
+        if (is<Heartbeat>(bytes)) {
+            bytes = encode(Heartbeat{std::get<Heartbeat>(decode(bytes)).incarnation, samples += 1'000'000, samples});
+            return true;
+        }
+        if (!is<Result>(bytes)) return true;
+        has_work = true;
+        bytes = encode(Heartbeat{std::get<Result>(decode(bytes)).incarnation, samples, samples});
+        return true;
+    });
+    expect_truth(render_and_close());
+    EXPECT_TRUE(has_work);
+    EXPECT_GT(copied_, 0u);
+    EXPECT_TRUE(lost_.empty());
+}
+
 TEST_F(JoinTest, OneThatSendsABadResultIsBarred) {
     open(1);
     std::atomic<bool> sent_bad_result = false;
@@ -143,6 +163,40 @@ TEST_F(JoinTest, OneThatSendsABadResultIsBarred) {
     expect_truth(render_and_close());
     EXPECT_EQ(bad_messages_, 1u);
     EXPECT_EQ(lost_, std::set<int>{2});
+}
+
+/// Whatever guests say of themselves while ranks gather, they alone are refused, and the ranks are waited for.
+TEST_F(JoinTest, GuestsThatAreRefusedWhileRanksGatherRefuseNobodyElse) {
+    open(2);
+    stay_ = false;
+    for (int k = 0; k < 3; ++k)
+        start_guest([k](Bytes& bytes) {
+            if (!is<Hello>(bytes)) return true;
+            auto hello = std::get<Hello>(decode(bytes));
+            k == 0 ? void(hello.memory = 1) : k == 1 ? void(hello.threads = 0) : void(hello.fingerprint = 1);
+            bytes = encode(hello);
+            return true;
+        });
+    std::thread late([this] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(500));
+        for (std::size_t w = 0; w < 2; ++w)
+            start_worker(w);
+    });
+    Farm farm(*channels_[0], job_, kScene, kFingerprint, quiet_log());
+    farm.require_of_guests(1000);
+    farm.gather([] { return false; });
+    late.join();
+    EXPECT_EQ(farm.roster().present_count(), 2u);
+    const SdTree tree = initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f);
+    const RenderResult result = run_passes(farm, job_, passes_of(job_), tree, kWidth, kHeight, {});
+    for (const auto& [peer, member] : farm.roster().members())
+        if (member.is_guest) {
+            EXPECT_EQ(member.state, MemberState::refused) << peer;
+        }
+    stop_ = true;
+    leave(farm.lost_peers(), {.dismiss = 20});
+    static_cast<MultiChannel&>(*channels_[0]).close();
+    expect_truth(result);
 }
 
 TEST_F(JoinTest, GuestsStayForTheNextJobAndComeInTheMiddleOfASeries) {

@@ -25,6 +25,18 @@ Moments& moments(Result& r) {
     return r.units.back().pixels.back().half[0];
 }
 
+/// Replaces a number of an encoded tree update: numbers 5 to 7 are its caps, 10 is its first count of records.
+void change_varint(Bytes& update, int number) {
+    ByteReader in(update);
+    ByteWriter out;
+    for (int k = 0; k < number; ++k)
+        out.put_varint(in.get_varint());
+    in.get_varint();
+    out.put_varint(~std::uint64_t{0});
+    out.put_bytes(in.get_bytes(in.remaining()));
+    update = out.take();
+}
+
 class ResultThatCannotBe : public FarmTest, public ::testing::WithParamInterface<BadResult> {};
 
 TEST_P(ResultThatCannotBe, ExcludesTheWorkerAndIsCounted) {
@@ -91,8 +103,47 @@ INSTANTIATE_TEST_SUITE_P(
                   [](Result& r) {
                       r.stats.tails.worst.assign(9, {1, r.pass, 0, 0, 0, {}});
                   }},
+        BadResult{"a mean that no float holds", [](Result& r) { moments(r).mean.x = 1e308; }},
+        BadResult{"a mean near the end of floats", [](Result& r) { moments(r).mean.x = 3e38; }},
+        BadResult{"deviations that no square has", [](Result& r) { moments(r).m2.x = 1e308; }},
+        BadResult{"an AOV that no float holds", [](Result& r) { r.units[0].aovs.values[0] = -1e59; }},
+        BadResult{"direct light that no float holds",
+                  [](Result& r) { r.units[0].aovs.direct[0].half[0].mean.x = 1e40; }},
+        BadResult{"negative direct light", [](Result& r) { r.units[0].aovs.direct[0].half[0].mean.x = -1; }},
+        BadResult{"deviations of direct light that no square has",
+                  [](Result& r) { r.units[0].aovs.direct[0].half[0].m2.x = 1e308; }},
+        BadResult{"more rays than anybody traces", [](Result& r) { r.stats.rays = ~std::uint64_t{0}; }},
+        BadResult{"more shadow rays than anybody traces", [](Result& r) { r.stats.shadow_rays = 1ull << 60; }},
+        BadResult{"more rays of split paths than rays", [](Result& r) { r.stats.split_path_rays = r.stats.rays + 1; }},
+        BadResult{"more seconds than have passed", [](Result& r) { r.stats.trace_seconds = 1e6; }},
+        BadResult{"busy for longer than has passed", [](Result& r) { r.stats.busy_seconds = 1e9; }},
+        BadResult{"more seconds of a phase than have passed", [](Result& r) { r.stats.phase_seconds[1] = 1e6; }},
+        BadResult{"more capped records than anybody makes", [](Result& r) { change_varint(r.update, 5); }},
+        BadResult{"more records of a region than anybody makes", [](Result& r) { change_varint(r.update, 10); }},
         BadResult{"work of another pass", [](Result& r) { r.pass += 1; }}),
     [](const auto& info) { return "Lie" + std::to_string(info.index); });
+
+/// A checkpoint may hold what no worker may send, and a render must not end well with it.
+TEST_F(FarmTest, AnImageThatNoFloatHoldsIsAFailure) {
+    for (const double huge : {1e45, 1e200}) {
+        faulty_.clear();
+        make_workers(1);
+        bool begun = false;
+        RenderState state = first_state(job_, initial_tree(Box3(Vec3(0.0f), Vec3(1.0f)), 1.0f), kWidth * kHeight);
+        hooks_.on_state = [&](RenderState&) { begun = true; };
+        hooks_.interrupted = [&] { return begun; };
+        hooks_.on_last_state = [&](RenderState last) { state = std::move(last); };
+        EXPECT_TRUE(render().interrupted);
+        ASSERT_FALSE(state.films.empty());
+        for (Moments& half : state.films[0].pixels[7].half)
+            half.mean.y = huge;
+        hooks_ = {};
+        faulty_.clear();
+        make_workers(1);
+        resumed_ = std::move(state);
+        EXPECT_THROW(render(), RunError) << huge;
+    }
+}
 
 /// Messages that a rogue may send to anybody at any time: well-formed, and none of its business.
 std::vector<Bytes> orders() {

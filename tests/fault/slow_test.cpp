@@ -38,6 +38,77 @@ TEST_F(FarmTest, AWorkerThatStandsStillHoldsNobodyUp) {
     EXPECT_EQ(bad_messages_, 0u) << "nor is it to blame";
 }
 
+/// A worker's messages as a liar sends them: it claims to trace a million paths a second, and delivers nothing.
+FaultyChannel::Filter claims_only() {
+    return [samples = std::uint64_t{0}](Bytes& bytes) mutable {
+        if (is<Heartbeat>(bytes)) {
+            auto beat = std::get<Heartbeat>(decode(bytes));
+            beat.samples = samples += 1'000'000;
+            beat.rays = ~std::uint64_t{0};
+            bytes = encode(beat);
+        }
+        return !is<Result>(bytes);
+    };
+}
+
+TEST_F(FarmTest, WorkersThatClaimProgressAndDeliverNothingHoldNobodyUp) {
+    make_workers(4);
+    first_ = 1;
+    faulty_[1]->outgoing = claims_only();
+    faulty_[2]->outgoing = claims_only();
+    faulty_[3]->outgoing = [claim = claims_only()](Bytes& bytes) mutable {
+        if (is<Hello>(bytes)) {
+            auto hello = std::get<Hello>(decode(bytes));
+            hello.threads = kMostThreads;
+            bytes = encode(hello);
+        }
+        return claim(bytes);
+    };
+    expect_truth(render());
+    EXPECT_GT(copied_, 0u);
+    EXPECT_TRUE(lost_.empty()) << "slow is not lost";
+}
+
+/// Both workers have a thread that never ends a unit: each does what the other's is stuck in.
+TEST_F(FarmTest, AStuckThreadAmongBusyOnesHoldsNobodyUp) {
+    make_workers(2);
+    std::atomic<bool> over = false;
+    std::atomic<int> stuck[2] = {0, 0};
+    for (std::size_t w = 0; w < 2; ++w)
+        renderers_[w] = make_hindered([&over, &stuck = stuck[w]](const WorkUnit& unit) {
+            if (unit.pass != 1 || stuck.exchange(1) != 0) return;
+            for (int k = 0; k < 20'000 && !over; ++k)
+                nap(1);
+        });
+    hooks_.on_pass = [&](const PassReport& report, const CombinedImage&) {
+        if (report.plan.index == 1) {
+            EXPECT_FALSE(over);
+            over = true;
+        }
+    };
+    expect_truth(render());
+    EXPECT_EQ(stuck[0] + stuck[1], 2);
+    EXPECT_GT(copied_, 1u);
+    EXPECT_EQ(bad_messages_, 0u);
+}
+
+/// A unit over which a worker was lost is issued alone, to one that claims to trace it.
+TEST_F(FarmTest, ASuspectIsCopiedAsWell) {
+    make_workers(3);
+    first_ = 0;
+    std::atomic<bool> died = false;
+    faulty_[0]->outgoing = [&](Bytes& bytes) {
+        if (!is<Result>(bytes)) return true;
+        died = faulty_[0]->cut = true;
+        return false;
+    };
+    renderers_[2] = make_patient(died);
+    faulty_[1]->outgoing = claims_only();
+    settings_[0].silence_seconds = 1.0;
+    expect_truth(render({.gather = 20, .lost = 0.3, .dismiss = 1}));
+    EXPECT_EQ(lost_, std::set<int>{1});
+}
+
 /// What a slow worker delivers after others is dropped, the rest of it counts.
 TEST_F(FarmTest, ASlowWorkerCostsTimeNotBits) {
     make_workers(3);

@@ -95,6 +95,7 @@ Result any_result(Script& script, const Known& known) {
          {&s.nonzero_paths, &s.rays, &s.records, &s.next_event[0], &s.unguided.cost, &s.invalid_samples})
         *counter = script.number();
     s.trace_seconds = any_value(script);
+    s.busy_seconds = any_value(script);
     s.splat_seconds = any_value(script);
     for (std::uint32_t count = script.below(4); count > 0; --count)
         s.tails.worst.push_back({static_cast<float>(script.below(3)),

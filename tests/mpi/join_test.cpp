@@ -3,10 +3,15 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <atomic>
+#include <deque>
 #include <fstream>
 #include <random>
+#include <thread>
 
+#include "common/base/error.h"
 #include "common/comm/join_ticket.h"
+#include "common/comm/tcp_socket.h"
 #include "common/runs/run_files.h"
 #include "tests/mpi/program.h"
 
@@ -136,6 +141,35 @@ TEST(Join, WhoeverMayNotIsToldWhatToDoAndDisturbsNobody) {
     expect_done(folder, ending);
     EXPECT_EQ(count(ending.output, "the secret of this ticket is not the run's"), 1) << ending.output;
     refused({folder.string()}, "is over");
+}
+
+/// Connections that say nothing, opened anew as they are closed, under a low limit of descriptors.
+TEST(Join, ACrowdOfStrangersKeepsNobodyOutAndTakesNoDescriptorOfTheFiles) {
+    const fs::path folder = fresh_folder("run");
+    std::vector<std::string> command =
+        mpirun(2) + std::vector<std::string>{"sh", "-c", "ulimit -n 40; exec \"$@\"", "sh"};
+    Program program(command + render(folder, kJoinable));
+    ASSERT_TRUE(program.wait_until([&] { return has_come_to(folder, 0); }, kSoon));
+    const JoinTicket ticket = read_ticket(folder / kTicketFileName);
+    std::atomic<bool> over = false;
+    std::thread strangers([&] {
+        std::deque<Socket> crowd;
+        for (int k = 0; k < 20'000 && !over; ++k) {
+            try {
+                crowd.push_back(connect_to(ticket.address, ticket.port, 1));
+            } catch (const RunError&) {  // the render has ended
+            }
+            if (crowd.size() > 100) crowd.pop_front();
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    });
+    Program guest(join({folder.string(), "--wait", "30"}));
+    EXPECT_TRUE(program.wait_until([&] { return workers_in(folder) == 2; }, kSoon));
+    expect_done(folder, program.wait(kSoon));
+    over = true;
+    strangers.join();
+    const Ending ending = guest.wait(kSoon);
+    EXPECT_EQ(ending.code, 0) << ending.output;
 }
 
 TEST(Join, AGuestThatIsToldToLeaveGivesBackWhatItHas) {

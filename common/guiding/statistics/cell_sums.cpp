@@ -33,6 +33,11 @@ void read_sparse(ByteReader& in, std::size_t limit, const char* what, Visit visi
     }
 }
 
+/// Refuses a count that no worker reaches, before it is added to others.
+void check_count(std::uint64_t, std::uint64_t count) {
+    if (count > kMostClaim) throw FormatError("a tree update with a count that is too large");
+}
+
 void write_sparse(ByteWriter& out, std::span<const std::uint64_t> values) {
     std::uint64_t count = 0;
     for (const std::uint64_t v : values)
@@ -141,7 +146,9 @@ std::uint64_t CellSums::merge_encoded(std::span<const std::uint8_t> update) {
         return caps;
     };
     const auto ignore = [](std::uint64_t, std::uint64_t) {};
-    read(ignore, ignore, ignore, ignore, ignore, ignore);
+    const UpdateCaps claimed = read(check_count, ignore, ignore, ignore, check_count, ignore);
+    for (const std::uint64_t count : {claimed.capped_records, claimed.saturated_cells, claimed.outside_positions})
+        check_count(0, count);
     std::uint64_t touched = 0;
     const UpdateCaps caps =
         read([&](std::uint64_t distribution, std::uint64_t count) { counts_[distribution] += count; },

@@ -4,13 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/text/parse_text.h"
-#include "common/config/aov_list.h"
-#include "common/film/fold_passes.h"
-#include "common/film/pixel_codec.h"
-#include "common/film/pixel_estimate.h"
 #include "common/film/splat_film.h"
 #include "common/guiding/statistics/cell_sums.h"
+#include "common/plan/forecast/film_memory.h"
 #include "common/plan/schedule/kernel.h"
 #include "common/plan/schedule/learning.h"
 #include "common/plan/schedule/schedule.h"
@@ -112,28 +108,6 @@ MemoryItem emitter_item(const Scene& scene, const Resolved& job) {
     return item;
 }
 
-/// Number of images of finished passes that the coordinator keeps.
-std::uint64_t kept_passes(const Resolved& job) {
-    if (job.budget.strict) return 1;  // each replaces the one before
-    if (has_open_budget(job)) return kMostPassImages;
-    return std::min(plan_passes(job).size(), kMostPassImages);
-}
-
-std::string passes_text(const Resolved& job) {
-    const std::string kept = count_text(kept_passes(job), "passes");
-    if (job.budget.strict) return "the last pass";
-    if (has_open_budget(job)) return "at most " + kept;
-    const std::size_t passes = plan_passes(job).size();
-    return passes > kMostPassImages ? count_text(passes, "passes merged into ") + kept : kept;
-}
-
-/// Text about the loss by a kill: seconds between checkpoints, which take at most a tenth of the time.
-std::string lost_by_kill(const Resolved& job, std::uint64_t pixels) {
-    constexpr double kBytesPerSecond = 1e8;
-    const auto bytes = static_cast<double>(kEstimateBytes * pixels * (kept_passes(job) + 1));
-    return number_text(std::ceil(std::max(double(job.farm.checkpoint_seconds), 10 * bytes / kBytesPerSecond)));
-}
-
 }  // namespace
 
 std::uint64_t mesh_bytes(const Mesh& mesh) {
@@ -222,7 +196,7 @@ TreeSize expected_tree(const Scene& scene, const Resolved& job) {
 }
 
 MemoryPlan expected_memory(const Scene& scene, const Resolved& job) {
-    const std::uint64_t pixels = scene.film.pixel_count(), triangles = scene.triangle_count();
+    const std::uint64_t triangles = scene.triangle_count();
     std::uint64_t objects = 0;
     for (const Shape& shape : scene.shapes)
         objects += std::holds_alternative<Mesh>(shape.geometry) ? 0 : 1;
@@ -246,35 +220,11 @@ MemoryPlan expected_memory(const Scene& scene, const Resolved& job) {
     if (splats.bytes > 0) plan.worker.push_back(splats);
     const std::uint64_t scene_bytes = geometry_bytes(scene) + texture_bytes(scene);
     plan.coordinator.push_back({"scene", 2 * scene_bytes, "as values and packed for workers"});
-    // Passes, the current one, the image; the previous image while it is written, its 12 channels and their file.
-    plan.coordinator.push_back(
-        {"film",
-         pixels * ((kept_passes(job) + 1) * sizeof(PixelEstimate) + 2 * 4 * sizeof(Rgb64) + 2 * 12 * sizeof(float)),
-         count_text(pixels, "pixels, ") + passes_text(job)});
+    add_film_memory(scene, job, plan);
     if (splats.bytes > 0) plan.coordinator.push_back(splats);
-    const AovLayout aovs(aov_requests(job));
-    const std::uint64_t sums = sizeof(double) * aovs.size() + (aovs.direct() ? sizeof(Rgb64) : 0);
-    if (job.farm.checkpoint_seconds > 0)
-        plan.coordinator.push_back({"checkpoint", pixels * 2 * (kEstimateBytes + sums),
-                                    std::string("copies of two passes") + (sums > 0 ? " and of two sums of AOVs" : "") +
-                                        ", to be written; a kill loses at most some " + lost_by_kill(job, pixels) +
-                                        " s (100 MB/s disk)"});
-    if (!job.output.aovs.empty()) {
-        std::size_t channels = 0;
-        for (const AovRequest& request : aov_requests(job))
-            channels += request.channels().size();
-        // AOVs of the current pass and of all; film and sums of direct light; channels of the image, of the previous
-        // one while it is written, and its file.
-        const std::uint64_t bytes = 2 * sizeof(double) * aovs.size() +
-                                    (aovs.direct() ? sizeof(PixelEstimate) + sizeof(Rgb64) : 0) +
-                                    4 * sizeof(float) * channels;
-        plan.coordinator.push_back(
-            {"aovs", pixels * bytes,
-             count_text(channels, "channels: in image.exr ") +
-                 count_text(sizeof(float) * channels, "bytes a pixel more, from workers ") +
-                 count_text(sizeof(double) * aovs.size() + (aovs.direct() ? 96 : 0), "per unit's pixel more")});
-    }
     plan.coordinator.push_back({"tree", 2 * tree.sum_bytes(), tree_text + ", before and after refinement"});
+    for (std::vector<MemoryItem>* items : {&plan.worker, &plan.coordinator})
+        items->push_back({kProgramMemory, kProgramBytes, "program, libraries and MPI of a process"});
     return plan;
 }
 

@@ -40,6 +40,14 @@ struct TreeSize {
     std::uint64_t sum_bytes() const;    ///< bytes of the plain form and of the sums of records
 };
 
+/// Name of the item that a process has in memory when it starts, and its bytes (bench/log/farm.md, "what do the
+/// processes of a render take").
+inline constexpr const char* kProgramMemory = "program";
+inline constexpr std::uint64_t kProgramBytes = std::uint64_t{36} << 20;
+
+/// Bytes of pixels that a worker sends without waiting for its next update: many threads fill much memory in that time.
+inline constexpr std::size_t kBundleBytes = std::size_t{24} << 20;
+
 /// Bytes of an emitter, its table apart.
 inline constexpr std::uint64_t kEmitterBytes = 128;
 /// Approximate bytes and microseconds of the hierarchy per emitter (bench/log/next-event.md, "emitters by what they
@@ -65,8 +73,7 @@ std::uint64_t splat_bytes(const Scene& scene, const Resolved& job);
 /// regions). Exact for guides that do not grow. 0 without guiding.
 TreeSize expected_tree(const Scene& scene, const Resolved& job);
 
-/// Expected memory of a render's data, as formulas of scene and job. Program, libraries, MPI's buffers and the peak
-/// while Embree builds come on top.
+/// Expected memory of a render's processes, as formulas of scene and job. The peak while Embree builds comes on top.
 MemoryPlan expected_memory(const Scene& scene, const Resolved& job);
 
 }  // namespace treefarm

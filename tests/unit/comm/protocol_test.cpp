@@ -15,6 +15,7 @@ Result sample_result() {
     result.update = {1, 2, 3};
     result.stats.paths = 24;
     result.stats.trace_seconds = 0.25;
+    result.stats.busy_seconds = 0.75;
     result.stats.split_path_rays = 7;
     result.stats.splitting = {1, 2, 3, std::uint64_t{1} << 63};
     result.stats.next_event = {9, 8, 7, 6, 5, 4, ~std::uint64_t{0}};

@@ -51,6 +51,10 @@ class RawConnection {
         all.insert(all.end(), bytes.begin(), bytes.end());
         return all;
     }
+    bool has_answer() {
+        std::uint8_t byte;
+        return ::recv(socket_.fd(), &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 1;
+    }
     /// Whether the other end has hung up.
     bool is_cut_off() {
         std::uint8_t byte;
@@ -231,7 +235,7 @@ TEST_F(TcpChannelTest, WhoSaysTooLittleForTooLongIsCutOff) {
     EXPECT_EQ(warnings_.size(), 2u);
 }
 
-TEST_F(TcpChannelTest, The65thThatProvesNothingIsTurnedAway) {
+TEST_F(TcpChannelTest, The65thThatProvesNothingClosesTheOldest) {
     open();
     std::vector<std::unique_ptr<RawConnection>> crowd;
     for (int k = 0; k < 64; ++k)
@@ -239,14 +243,34 @@ TEST_F(TcpChannelTest, The65thThatProvesNothingIsTurnedAway) {
     turn_until([&] { return listener_->unproven() == 64; });
     RawConnection last(listener_->ticket());
     turn_until([&] { return !warnings_.empty(); });
-    last.take_answer();
-    EXPECT_EQ(last.refusal(), JoinRefusal::crowded);
-    EXPECT_TRUE(last.is_cut_off());
+    crowd.front()->take_answer();
+    EXPECT_EQ(crowd.front()->refusal(), JoinRefusal::crowded);
+    EXPECT_TRUE(crowd.front()->is_cut_off());
+    EXPECT_FALSE(last.is_cut_off());
     EXPECT_EQ(listener_->unproven(), 64u);
-    crowd.pop_back();
-    turn_until([&] { return listener_->unproven() == 63; });
-    const auto guest_after = guest();
-    EXPECT_EQ(listener_->peers().size(), 1u);
+}
+
+/// Strangers who connect anew as fast as they are closed keep nobody out.
+TEST_F(TcpChannelTest, AGuestGetsInThroughACrowdThatNeverEnds) {
+    open();
+    std::vector<std::unique_ptr<RawConnection>> crowd;
+    const auto push = [&](int count) {
+        for (int k = 0; k < count; ++k)
+            crowd.push_back(std::make_unique<RawConnection>(listener_->ticket()));
+    };
+    push(100);
+    RawConnection honest(listener_->ticket());
+    honest.say_hello();
+    push(100);
+    turn_until([&] { return honest.has_answer(); });
+    honest.take_answer();
+    ASSERT_TRUE(honest.is_welcome());
+    push(100);
+    for (int k = 0; k < 10; ++k)
+        listener_->poll();
+    EXPECT_EQ(listener_->unproven(), 64u);
+    honest.say(honest.frame(Bytes(10, 1)));
+    turn_until([&] { return listener_->peers().size() == 1; });
 }
 
 TEST_F(TcpChannelTest, AGuestThatTakesNothingInIsGivenUp) {

@@ -57,6 +57,17 @@ TEST(MemoryCheck, SumsOverTheProcessesOfAHost) {
     EXPECT_NE(there.find("5 GB are available"), std::string::npos) << there;
 }
 
+TEST(MemoryCheck, AGuestsWordsAreHeldAgainstNobodyElse) {
+    Roster roster(1);
+    roster.admit(1, hello("b", 8 * kGigabyte), 0);
+    for (int guest = 2; guest < 9; ++guest)
+        roster.admit(guest, hello(guest % 2 ? "a" : "b", 1), 0).is_guest = true;
+    EXPECT_EQ(test::refusal_of([&] {
+                  check_memory(plan(3 * kGigabyte, kGigabyte), {"a", 4 * kGigabyte}, roster, "scene.xml");
+              }),
+              "");
+}
+
 TEST(MemoryCheck, HoldsNothingUnknownAgainstAnybody) {
     const MemoryPlan much = plan(1000 * kGigabyte, 1000 * kGigabyte);
     EXPECT_EQ(refusal(much, {"a", 0}, {hello("a", 0), hello("b", 0)}), "");

@@ -183,9 +183,9 @@ TEST(Ledger, WorkOfALostWorkerIsIssuedAgainFirst) {
     EXPECT_TRUE(ledger.complete());
 }
 
-/// Seconds that a copy would save: these, whoever has the unit.
-std::function<double(int, std::uint64_t)> saves(double seconds) {
-    return [=](int, std::uint64_t) { return seconds; };
+/// Seconds that a copy would save: these, whoever has the unit, or where the worker `slow` has it.
+std::function<double(int, const WorkUnit&)> saves(double seconds, int slow = -1) {
+    return [=](int holder, const WorkUnit&) { return slow < 0 || holder == slow ? seconds : 0.0; };
 }
 
 TEST(Ledger, TheFirstOfTwoCopiesCounts) {
@@ -198,7 +198,7 @@ TEST(Ledger, TheFirstOfTwoCopiesCounts) {
     EXPECT_TRUE(ledger.issue_copies(2, 5, saves(0)).empty()) << "none is worth it";
     const auto copy = ledger.issue_copies(2, 1, saves(1));
     ASSERT_EQ(copy, std::vector{slow[1]}) << "what the other begins last";
-    EXPECT_TRUE(ledger.issue_copies(3, 5, saves(1)) == std::vector{slow[0]}) << "two copies of one are enough";
+    EXPECT_TRUE(ledger.issue_copies(3, 5, saves(1, 1)) == std::vector{slow[0]}) << "worker 2 is not slow";
     EXPECT_EQ(ledger.reclaim(3), 1u);
     EXPECT_EQ(ledger.outstanding(), 2u) << "worker 1 still has it";
     EXPECT_EQ(ledger.accept(2, copy), Verdict::accepted);
@@ -210,6 +210,39 @@ TEST(Ledger, TheFirstOfTwoCopiesCounts) {
     EXPECT_EQ(ledger.judge(1, copy), Verdict::protocol_error) << "late but once";
     EXPECT_EQ(ledger.issue(2, some(5)), std::vector{slow[0]}) << "what else was in a late result is issued again";
     EXPECT_EQ(ledger.accept(2, std::vector{slow[0]}), Verdict::accepted);
+    EXPECT_TRUE(ledger.complete());
+}
+
+TEST(Ledger, AUnitOfWhichAllCopiesAreOverdueIsCopiedOnceMore) {
+    Ledger ledger(plan(), 64, 32, 32);
+    const auto unit = ledger.issue(1, some(1)), other = ledger.issue(2, some(1));
+    EXPECT_TRUE(ledger.issue_copies(2, 5, saves(1)).empty()) << "it has work of its own";
+    EXPECT_EQ(ledger.issue_copies(2, 5, saves(1), true), unit) << "its own unit is stuck";
+    EXPECT_EQ(ledger.issue_copies(1, 5, saves(1), true), other);
+    EXPECT_TRUE(ledger.issue_copies(1, 5, saves(1), true).empty()) << "one copy a worker";
+    EXPECT_EQ(ledger.issue_copies(3, 5, saves(1)).size(), 2u);
+    EXPECT_EQ(ledger.accept(3, unit), Verdict::accepted);
+    EXPECT_EQ(ledger.take_superseded(1), unit);
+    EXPECT_EQ(ledger.take_superseded(2), unit);
+    EXPECT_EQ(ledger.judge(2, unit), Verdict::late);
+    EXPECT_EQ(ledger.reclaim(3), 1u);
+    EXPECT_EQ(ledger.waiting(), 0u) << "two still have it";
+    EXPECT_EQ(ledger.accept(1, other), Verdict::accepted);
+    EXPECT_TRUE(ledger.complete());
+    EXPECT_EQ(ledger.outstanding_paths(1) + ledger.outstanding_paths(2) + ledger.outstanding_paths(3), 0u);
+}
+
+TEST(Ledger, ASuspectMayBeCopiedAndWaitsForNobodyWhoIsStuck) {
+    Ledger ledger(plan(), 96, 32, 32);
+    const auto stuck = ledger.issue(1, some(1)), lost = ledger.issue(2, some(1)), rest = ledger.issue(3, some(1));
+    ledger.reclaim(2, true);
+    EXPECT_TRUE(ledger.is_suspect(lost[0]));
+    EXPECT_TRUE(ledger.issue(1, some(1)).empty());
+    EXPECT_EQ(ledger.issue(1, some(1), true), lost) << "the worker is idle, though its own unit is stuck";
+    EXPECT_EQ(ledger.accept(3, rest), Verdict::accepted);
+    EXPECT_EQ(ledger.issue_copies(3, 5, saves(1)).size(), 2u);
+    EXPECT_EQ(ledger.accept(3, lost), Verdict::accepted);
+    EXPECT_EQ(ledger.accept(3, stuck), Verdict::accepted);
     EXPECT_TRUE(ledger.complete());
 }
 

@@ -24,8 +24,7 @@ struct SimulatedWorker {
     std::deque<WorkUnit> queue;
     std::vector<WorkUnit> finished;
     double left = 0;  ///< paths of the front unit that are still to be traced
-    double sent = 0, beaten = 0;
-    double samples = 0;
+    double sent = 0;
     bool told_end = false;
     WorkerSpeed measured;
 };
@@ -61,6 +60,8 @@ class Simulation {
             now_ += kStep;
             if (ideal == 0 && ideal_paths >= all) ideal = now_ - begin;
         }
+        for (SimulatedWorker& w : workers_)
+            w.measured.deliver(now_, 0, false);
         return (now_ - begin) / (ideal > 0 ? ideal : now_ - begin);
     }
 
@@ -78,13 +79,8 @@ class Simulation {
             w.left -= traced;
             paths -= traced;
             if (w.left > 0) break;
-            w.samples += static_cast<double>(ledger.paths(w.queue.front()));
             w.finished.push_back(w.queue.front());
             w.queue.pop_front();
-        }
-        if (now_ - w.beaten >= 1.0) {
-            w.measured.beat(now_, static_cast<std::uint64_t>(w.samples), ledger.outstanding(number) > 0);
-            w.beaten = now_;
         }
         const bool at_end = w.told_end && w.queue.empty();
         if (!w.finished.empty() && (at_end || now_ - w.sent >= kUpdateSeconds)) send(ledger, number);
@@ -95,7 +91,12 @@ class Simulation {
         SimulatedWorker& w = workers_[static_cast<std::size_t>(number)];
         const Verdict verdict = ledger.accept(number, w.finished);
         EXPECT_NE(verdict, Verdict::protocol_error);
+        std::uint64_t paths = 0;
+        for (const WorkUnit& unit : w.finished)
+            paths += verdict == Verdict::accepted ? ledger.paths(unit) : 0;
         if (verdict == Verdict::late) ledger.drop(number, w.finished);
+        if (paths > 0 || ledger.outstanding(number) == 0)
+            w.measured.deliver(now_, paths, ledger.outstanding(number) > 0);
         w.finished.clear();
         w.sent = now_;
         for (std::size_t other = 0; other < workers_.size(); ++other)
@@ -108,7 +109,8 @@ class Simulation {
         SimulatedWorker& w = workers_[static_cast<std::size_t>(number)];
         std::map<int, WorkerRate> rates;
         for (std::size_t i = 0; i < workers_.size(); ++i)
-            rates[static_cast<int>(i)] = {1, workers_[i].measured.paths_per_second()};
+            rates[static_cast<int>(i)] =
+                worker_rate(workers_[i].measured, 1, ledger.outstanding_paths(int(i)), kUpdateSeconds, now_);
         const Speeds speeds(rates);
         std::uint64_t queued = 0;
         for (std::size_t i = 1; i < w.queue.size(); ++i)
@@ -118,11 +120,12 @@ class Simulation {
             units = ledger.issue(number, speeds.portion(number, 8, queued, ledger.waiting_paths()));
             if (!units.empty()) w.told_end = false;
         } else if (w.queue.empty() && w.finished.empty() && now_ - ended > 0.05) {
-            units = ledger.issue_copies(number, 1, [&](int holder, std::uint64_t paths) {
-                return speeds.gain(number, paths, holder, ledger.outstanding_paths(holder));
+            units = ledger.issue_copies(number, 1, [&](int holder, const WorkUnit& unit) {
+                return speeds.gain(number, ledger.paths(unit), holder, ledger.outstanding_paths(holder));
             });
         }
         w.queue.insert(w.queue.end(), units.begin(), units.end());
+        if (!units.empty()) w.measured.begin(now_);
         if (ledger.waiting() == 0 && !w.told_end) {
             ended = now_;
             for (std::size_t other = 0; other < workers_.size(); ++other) {
@@ -183,17 +186,52 @@ INSTANTIATE_TEST_SUITE_P(
                          1.15}),
     [](const auto& info) { return info.param.name; });
 
-TEST(WorkerSpeed, IsKnownAfterTwoHeartbeatsWithWork) {
+TEST(WorkerSpeed, IsKnownAfterAResultAndCountsNoTimeWithoutUnits) {
     WorkerSpeed measured;
-    measured.beat(0.0, 0, true);
+    measured.begin(0.0);
     EXPECT_FALSE(measured.paths_per_second());
-    measured.beat(1.0, 1000, true);
+    measured.deliver(1.0, 1000, false);
     EXPECT_DOUBLE_EQ(*measured.paths_per_second(), 1000);
-    measured.beat(2.0, 1000, false);
-    measured.beat(3.0, 1000, true);
+    measured.begin(3.0);
+    measured.deliver(4.0, 1000, true);
     EXPECT_DOUBLE_EQ(*measured.paths_per_second(), 1000) << "who has no work is not slow";
-    measured.beat(5.0, 1000, true);
+    measured.deliver(6.0, 0, false);
     EXPECT_DOUBLE_EQ(*measured.paths_per_second(), 500) << "half of it after the half-life";
+    measured.deliver(9.0, 0, false);
+    EXPECT_DOUBLE_EQ(*measured.paths_per_second(), 500) << "it had no units";
+}
+
+TEST(WorkerSpeed, IsNoMoreThanWhatAnOverdueWorkerCanHave) {
+    WorkerSpeed measured;
+    measured.begin(0.0);
+    EXPECT_EQ(worker_rate(measured, 2, 600, 1.5, 1.0).most, std::numeric_limits<double>::infinity());
+    EXPECT_DOUBLE_EQ(worker_rate(measured, 2, 600, 1.5, 3.5).most, 300);
+    measured.deliver(4.0, 8000, true);
+    EXPECT_DOUBLE_EQ(*worker_rate(measured, 2, 600, 1.5, 4.0).speed, 2000);
+    EXPECT_EQ(worker_rate(measured, 2, 600, 1.5, 5.0).most, std::numeric_limits<double>::infinity());
+    EXPECT_DOUBLE_EQ(worker_rate(measured, 2, 600, 1.5, 11.5).most, 100);
+}
+
+/// A deadline from measured rates: a copy is made once the wait is longer than twice its time.
+TEST(Speeds, AnOverdueUnitIsCopiedWhateverIsKnownOfItsHolder) {
+    const auto gain = [](std::optional<double> speed, unsigned threads, double overdue) {
+        WorkerRate holder{threads, speed, 1000 / overdue};
+        return Speeds({{1, holder}, {2, {2, 1000.0}}}).gain(2, 1000, 1, 1000);
+    };
+    for (const unsigned threads : {1u, 65536u})
+        for (const std::optional<double> speed : {std::optional<double>(), std::optional<double>(1e12)}) {
+            EXPECT_EQ(gain(speed, threads, 1.9), 0) << threads;
+            EXPECT_GT(gain(speed, threads, 2.1), 0) << threads;
+        }
+    // Two workers with a stuck thread each help one another.
+    const Speeds both({{1, {2, 1000.0, 100 / 1.0}}, {2, {2, 1000.0, 100 / 0.9}}, {3, {2, 1000.0, 600}}});
+    EXPECT_TRUE(both.is_overdue(1));
+    EXPECT_TRUE(both.is_overdue(2));
+    EXPECT_FALSE(both.is_overdue(3)) << "units may take longer than was thought";
+    EXPECT_GT(both.gain(1, 100, 2, 100), 0);
+    EXPECT_GT(both.gain(2, 100, 1, 100), 0);
+    const Speeds nothing_known({{1, {1, std::nullopt, 1000 / 0.2}}, {2, {2, std::nullopt}}});
+    EXPECT_GT(nothing_known.gain(2, 1000, 1, 1000), 0);
 }
 
 TEST(Speeds, PortionsAreForTwoSecondsOrAQuarterOfOnesPart) {

@@ -14,6 +14,7 @@
 #include "common/scene/uses/texture_mean.h"
 #include "tests/support/refusal.h"
 #include "tests/support/resolved.h"
+#include "tests/support/test_scenes.h"
 
 namespace treefarm {
 namespace {
@@ -289,17 +290,46 @@ TEST(Plan, TheFilmDoesNotGrowWithThePasses) {
     Job job;
     job.guiding.spp_unit = 1;
     job.budget.spp = (1u << 8) - 1;
-    const std::uint64_t of_eight = pixels * (9 * 112 + 2 * 96 + 2 * 48);
+    const std::uint64_t of_eight = pixels * (8 * 112 + 2 * 96 + 2 * 48 + 8), merged = of_eight + 112 * pixels;
     EXPECT_EQ(plan_passes(resolve(job, scene)).size(), 8u);
     EXPECT_EQ(film(job).bytes, of_eight);
     EXPECT_NE(film(job).formula.find(", 8 passes"), std::string::npos);
     job.budget.spp = (1u << 20) - 1;
-    EXPECT_EQ(film(job).bytes, of_eight);
+    EXPECT_EQ(film(job).bytes, merged);
     EXPECT_NE(film(job).formula.find("20 passes merged into 8"), std::string::npos) << film(job).formula;
     job.budget.seconds = 3600;  // nobody knows how many
-    EXPECT_EQ(film(job).bytes, of_eight);
+    EXPECT_EQ(film(job).bytes, merged);
     job.budget.strict = true;
-    EXPECT_EQ(film(job).bytes, of_eight - 7 * 112 * pixels);
+    EXPECT_EQ(film(job).bytes, merged - 7 * 112 * pixels);
+}
+
+/// Peak resident sizes in MiB of cornell-box with three ranks of one thread (bench/log/farm.md, "what do the processes
+/// of a render take").
+TEST(Plan, MemoryIsWhatProcessesTake) {
+    struct Measured {
+        int size;
+        std::uint32_t spp;
+        const char* aovs;
+        double worker, coordinator;
+    };
+    for (const Measured& m :
+         {Measured{512, 1, "", 57, 152}, Measured{512, 7, "", 72, 369}, Measured{512, 15, "", 78, 421},
+          Measured{1024, 1, "", 0, 428}, Measured{2048, 1, "", 73, 1801}, Measured{4096, 1, "", 0, 7168},
+          Measured{512, 3, "albedo,normal,depth,direct", 0, 445}}) {
+        Scene scene = test::cornell_box(1.0f, Vec3(0.0f));
+        scene.film.width = scene.film.height = m.size;
+        Job job;
+        job.budget.spp = m.spp;
+        job.output.aovs = m.aovs;
+        const MemoryPlan plan = expected_memory(scene, resolve(job, scene));
+        constexpr double kMiB = 1 << 20;
+        const double worker = static_cast<double>(plan.worker_bytes()) / kMiB;
+        const double coordinator = static_cast<double>(plan.coordinator_bytes()) / kMiB;
+        if (m.worker > 0) {
+            EXPECT_NEAR(worker / m.worker, 1, 0.2) << m.size << " " << m.spp;
+        }
+        EXPECT_NEAR(coordinator / m.coordinator, 1, 0.2) << m.size << " " << m.spp;
+    }
 }
 
 TEST(RefineSettings, ATreeIsTheLastWhereItsPassSaysSo) {

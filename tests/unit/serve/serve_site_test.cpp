@@ -33,7 +33,8 @@ std::string running_status(std::int64_t time) {
         "workers": 1, "rays": 1000, "halving": {"relative_error": 0.1, "spp": 40, "seconds": 30, "trust": "noisy"},
         "farm": {"workers": [
           {"worker": 1, "host": "node1", "threads": 8, "state": "present", "losses": 0, "paths_per_second": 5000.0,
-           "rays": 900, "idle_share": 0.25, "bad_messages": 0},
+           "rays": 900, "idle_share": 0.25, "processor_share": 0.06,
+           "bad_messages": 0},
           {"worker": 2, "host": "a \"b\"\\c", "threads": 4, "state": "lost", "losses": 1, "paths_per_second": null}],
           "reissued_units": 7, "copied_units": 1, "dropped_results": 2, "bad_messages": 0},
         "pid": 77, "host": "node1", "time": )" +
@@ -126,6 +127,7 @@ TEST_F(ServeSite, AViewHoldsWhatTheFilesSay) {
     EXPECT_EQ(view["error"], 0.2);
     EXPECT_EQ(view["farm"]["workers"][1]["state"], "lost");
     EXPECT_TRUE(view["farm"]["workers"][1]["idle_share"].is_null());
+    EXPECT_EQ(view["farm"]["workers"][0]["processor_share"], 0.06);
     EXPECT_EQ(view["halving"]["seconds"], 30);
     ASSERT_EQ(view["table"].size(), 2u) << "the third line is not whole yet";
     EXPECT_EQ(view["table"][0]["error"], 0.5);

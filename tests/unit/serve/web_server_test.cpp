@@ -101,6 +101,32 @@ TEST(WebServer, TooManyConnectionsAreSentAway) {
     EXPECT_TRUE(std::any_of(silent.rbegin(), silent.rend(), sent_away));
 }
 
+TEST(WebServer, ACrowdOfSilentClientsKeepsNoReaderOut) {
+    WebLimits limits;
+    limits.threads = 2;
+    limits.waiting = 16;
+    limits.request_seconds = 1000;
+    Running running(limits);
+    std::vector<std::unique_ptr<test::Client>> silent;
+    for (int k = 0; k < 100; ++k) {
+        silent.push_back(std::make_unique<test::Client>(running.port));
+        if (k % 2) silent.back()->send("GET / HTTP/1.1\r\n");
+    }
+    EXPECT_EQ(test::ask(running.port, "GET /").status, 200) << "it would take 1000 seconds";
+}
+
+TEST(WebServer, ThoseWhoReadNothingKeepNoReaderOut) {
+    WebLimits limits;
+    limits.threads = 2;
+    limits.request_seconds = 0.3;
+    limits.response_seconds = 1000;
+    Running running(limits);
+    test::Client hungry(running.port), thirsty(running.port);
+    for (test::Client* client : {&hungry, &thirsty})
+        client->send("GET /large HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    EXPECT_EQ(test::ask(running.port, "GET /").status, 200);
+}
+
 TEST(WebServer, EndsWhateverClientsDo) {
     auto running = std::make_unique<Running>(WebLimits{4, 4, 1000, 1000, 32 << 10});
     test::Client silent(running->port), hungry(running->port);

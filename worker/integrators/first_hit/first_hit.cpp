@@ -55,8 +55,9 @@ bool is_nothing(const Surface& surface) {
         return false;
 }
 
+/// The value, or 0 for one that no layer can hold.
 double finite(float value) {
-    return std::isfinite(value) ? static_cast<double>(value) : 0.0;
+    return std::abs(value) <= kMostRadiance ? static_cast<double>(value) : 0.0;
 }
 
 /// AOV values of a sample, to which contributions are added.

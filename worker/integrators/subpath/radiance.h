@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "common/film/radiance_limit.h"
 #include "common/math/vec.h"
 
 namespace treefarm {
 
-/// Whether a film accepts a colour as radiance: finite and not negative.
+/// Whether a film accepts a colour as radiance: 0 to kMostRadiance.
 inline bool is_radiance(const Rgb& c) {
-    return is_finite(c) && c.x >= 0.0f && c.y >= 0.0f && c.z >= 0.0f;
+    const auto is_possible = [](float v) { return v >= 0.0f && v <= kMostRadiance; };
+    return is_possible(c.x) && is_possible(c.y) && is_possible(c.z);
 }
 
 }  // namespace treefarm
