@@ -96,7 +96,7 @@ void run_convert(const ConvertOptions& options, std::ostream& out) {
     if (extension == ".exr")
         write_exr(options.output, alone);
     else
-        write_file_atomically(options.output, encode_pfm(alone));
+        write_output_file(options.output, encode_pfm(alone));
 }
 
 void add_convert_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_code) {
