@@ -18,6 +18,7 @@
 #include "common/base/text/parse_text.h"
 #include "common/base/timer.h"
 #include "common/comm/run_key.h"
+#include "coordinator/checkpoint/checkpoint_store.h"
 #include "coordinator/launch/attempt_processes.h"
 #include "coordinator/launch/child_process.h"
 #include "coordinator/launch/host_keys.h"
@@ -181,7 +182,8 @@ class LaunchRun {
         const StartPlan plan = planner_.plan(
             {folder_.own() / ("hostfile-" + std::to_string(number)), temporary_.path(), shared_memory_.path()});
         const bool goes_on = number > 1 && folder_.was_taken_by(launch_);
-        const std::vector<std::string> words = goes_on ? command_.again(folder_.checkpoint() > 0) : command_.first();
+        const std::vector<std::string> words =
+            goes_on ? command_.again(has_usable_checkpoint(folder_.run())) : command_.first();
         const std::vector<std::string> command = start_command(plan, words);
         note("attempt " + std::to_string(number) + ": " + shell_line(command));
         const LifeAttempt attempt{name_of(number), folder_.life_file()};

@@ -4,6 +4,7 @@
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/read_bytes.h"
 #include "common/base/hash.h"
+#include "common/image/exr.h"
 #include "common/plan/resolve/resolved_file.h"
 #include "common/runs/run_json.h"
 #include "common/scene/pack/scene_codec.h"
@@ -24,7 +25,7 @@ RenderFigures read_figures(const fs::path& folder) {
 }
 
 bool holds_result(const fs::path& folder) {
-    return text_in(read_run_json(folder / kSummaryFile), "state") == "done" && fs::exists(folder / kImageFile);
+    return text_in(read_run_json(folder / kSummaryFile), "state") == "done" && is_exr_file(folder / kImageFile);
 }
 
 bool holds_result_of(const fs::path& folder, const RenderRequest& request) {
@@ -36,12 +37,13 @@ bool holds_result_of(const fs::path& folder, const RenderRequest& request) {
 }
 
 bool restore_output(const fs::path& folder, const std::string& file) {
-    if (file.empty() || fs::exists(file)) return true;
+    std::error_code none;  // an empty file was left by a loss of power
+    if (file.empty() || (fs::exists(file) && !(fs::is_regular_file(file) && fs::is_empty(file, none)))) return true;
     // The run directory has a copy of a PNG output, too: the preview.
     const fs::path from = folder / (fs::path(file).extension() == ".png" ? kPreviewFile : kImageFile);
     const std::string bytes = read_text(from);
     if (bytes.empty()) return false;
-    write_file_atomically(file, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+    write_output_file(file, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
     return true;
 }
 

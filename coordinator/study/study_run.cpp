@@ -9,7 +9,7 @@
 #include "common/base/files/atomic_file.h"
 #include "common/base/text/parse_text.h"
 #include "common/image/exr.h"
-#include "common/runs/run_files.h"
+#include "common/runs/run_json.h"
 #include "coordinator/farm/pulse.h"
 #include "coordinator/run/folder_lock.h"
 #include "coordinator/run/result_image.h"
@@ -51,7 +51,8 @@ std::string cell_words(const Study& study, const StudyCell& cell) {
 struct ReadyCell {
     RenderRequest request;
     fs::path folder;
-    bool done() const { return fs::exists(folder / kCellFile); }
+    /// A damaged file is no result.
+    bool done() const { return !read_run_json(folder / kCellFile).empty() && is_exr_file(folder / kImageFile); }
 };
 
 ReadyCell ready_cell(const Study& study, const StudyCell& cell, const LoadedScene& loaded,
@@ -167,7 +168,7 @@ class StudyRun {
     void prepare_reference(std::size_t scene, Reference& reference, RenderRequest& request) {
         const StudyScene& of = study_.scenes[scene];
         if (of.reference.empty()) {
-            if (!fs::exists(reference.mark())) {
+            if (!reference.is_there()) {
                 log_->info("{}: rendering the reference", of.name);
                 const fs::path folder = fs::path(reference.file).parent_path();
                 const auto frame = [&of](const RenderWords& w) {
@@ -268,8 +269,7 @@ void list_cells(const Study& study, const RenderOrigin& origin, std::ostream& ou
         RenderRequest request;
         const std::string key = reference_key(study, study.scenes[scene], loaded, reference, request, origin);
         out << "reference of " << study.scenes[scene].name << ": " << reference.file
-            << (!study.scenes[scene].reference.empty() || fs::exists(reference.mark()) ? " (there)\n"
-                                                                                       : " (to be rendered)\n");
+            << (!study.scenes[scene].reference.empty() || reference.is_there() ? " (there)\n" : " (to be rendered)\n");
         for (const StudyCell& cell : cells) {
             if (cell.scene != scene) continue;
             const ReadyCell ready = ready_cell(study, cell, loaded, key, origin);
