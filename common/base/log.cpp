@@ -68,8 +68,8 @@ class AppendingSink final : public spdlog::sinks::base_sink<std::mutex> {
         formatter_->format(message, line);
         Descriptor file = open();
         if (!file && errno == ELOOP && ::unlink(file_.c_str()) == 0) file = open();  // a link is not followed
-        if (file) [[maybe_unused]]
-            const ssize_t written = ::write(file.fd(), line.data(), line.size());
+        if (!file) return;
+        [[maybe_unused]] const ssize_t written = ::write(file.fd(), line.data(), line.size());
     }
     Descriptor open() const { return open_regular(file_, O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW, 0666); }
     void flush_() override {}

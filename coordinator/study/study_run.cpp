@@ -51,7 +51,7 @@ std::string cell_words(const Study& study, const StudyCell& cell) {
 struct ReadyCell {
     RenderRequest request;
     fs::path folder;
-    /// A damaged file is no result.
+    /// Whether the cell has a result; a damaged file is none.
     bool done() const { return !read_run_json(folder / kCellFile).empty() && is_exr_file(folder / kImageFile); }
 };
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/base/files/read_bytes.h"
 
-#include <sys/stat.h>
-
 #include <cerrno>
 
 #include "common/base/error.h"
