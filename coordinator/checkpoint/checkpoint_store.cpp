@@ -95,10 +95,11 @@ std::set<std::string> films_of(const Candidate& candidate, const Job& job) {
     }
 }
 
-/// Removes a folder in the place of a checkpoint's file, which could not be replaced.
-void remove_folder_at(const fs::path& path) {
+/// Removes a folder, a pipe or a device in the place of a checkpoint's file, which could not be replaced.
+void make_room_at(const fs::path& path) {
     std::error_code none;
-    if (fs::is_directory(fs::symlink_status(path, none))) fs::remove_all(path, none);
+    const fs::file_status there = fs::symlink_status(path, none);
+    if (fs::exists(there) && !fs::is_regular_file(there) && !fs::is_symlink(there)) fs::remove_all(path, none);
 }
 
 std::array<Candidate, 2> candidates_of(const fs::path& run) {
@@ -244,7 +245,7 @@ void CheckpointStore::write_generation(const SectionFile& file, const Names& nam
         const std::lock_guard lock(mutex_);
         slot = slot_;
     }
-    remove_folder_at(folder_ / kGenerationNames[slot]);
+    make_room_at(folder_ / kGenerationNames[slot]);
     write_pieces_atomically(folder_ / kGenerationNames[slot], SectionPieces(file).pieces(), Outlives::power);
     const std::lock_guard lock(mutex_);
     named_[slot] = names;
@@ -265,7 +266,7 @@ void CheckpointStore::write_film(const std::string& name, std::span<const std::u
     const fs::path path = folder_ / name;
     std::error_code none;
     if (intact_.contains(name) && fs::exists(path, none)) return;
-    remove_folder_at(path);
+    make_room_at(path);
     write_file_atomically(path, bytes, Outlives::power);
     intact_.insert(name);
 }

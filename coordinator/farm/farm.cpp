@@ -183,6 +183,7 @@ std::vector<std::uint32_t> Farm::chain_without_scene() {
 void Farm::step() {
     // Between steps the caller combines, refines and writes, and messages may wait for more than one step.
     roster_.excuse(clock_.seconds() - listened_);
+    longest_silence_ = std::max(longest_silence_, clock_.seconds() - last_beat_);
     bool busy = false;
     for (int looks = 0; looks < kMostLooks && !pass_complete(); ++looks) {
         const auto message = channel_.poll();
