@@ -101,7 +101,7 @@ void run_convert(const ConvertOptions& options, std::ostream& out) {
             std::copy(alpha.begin(), alpha.end(), alone.add_channel("A").begin());
         write_exr(options.output, alone);
     }
-    if (extension == ".pfm") write_file_atomically(options.output, encode_pfm(alone));
+    if (extension == ".pfm") write_output_file(options.output, encode_pfm(alone));
 }
 
 void add_convert_command(CLI::App& app, const LaunchEnvironment& launch, int& exit_code) {

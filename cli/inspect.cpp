@@ -51,7 +51,7 @@ MapReport write_map(const std::string& kind, Plane map, double white, const std:
         value = static_cast<float>(static_cast<double>(value) / white);
     }
     if (count > 0) report.mean /= static_cast<double>(count);
-    write_png(report.file, false_colour(map));
+    write_file_atomically(report.file, encode_png(false_colour(map)));
     return report;
 }
 
@@ -62,7 +62,7 @@ std::vector<MapReport> write_maps(const TraceScene& scene, const AnyModel& tree,
     for (const float cells : maps.cells.values)
         if (cells > most) most = cells;
     const std::filesystem::path regions = folder / "map-regions.png";
-    write_png(regions, maps.regions);
+    write_file_atomically(regions, encode_png(maps.regions));
     return {{"regions", regions.string(), 0, 0},
             write_map("bsdf-fraction", std::move(maps.bsdf_fraction), 1.0, folder),
             write_map("view-fraction", std::move(maps.view_fraction), 1.0, folder),

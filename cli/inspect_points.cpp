@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/files/atomic_file.h"
 #include "common/base/text/parse_text.h"
 #include "common/image/png.h"
 #include "common/metrics/false_colour.h"
@@ -95,7 +96,7 @@ GuidanceComparison compare(const std::string& kind, const std::vector<Panel>& pa
     GuidanceComparison comparison{kind, overlap(panels[0], panels[1]), most(panels), file.string(), {}};
     for (const Panel& panel : panels)
         comparison.panels.push_back(panel.title);
-    write_png(file, picture(panels, bits, comparison.white));
+    write_file_atomically(file, encode_png(picture(panels, bits, comparison.white)));
     return comparison;
 }
 

@@ -15,6 +15,7 @@
 #include "cli/usage.h"
 #include "common/base/error.h"
 #include "common/base/float_traps.h"
+#include "common/base/interrupt.h"
 #include "common/base/text/printable.h"
 
 namespace treefarm {
@@ -101,6 +102,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     treefarm::flush_denormals_if_asked();
+    treefarm::ignore_size_limits();
     const treefarm::TrapFloats traps;  // threads inherit them
     return treefarm::run(argc, argv);
 }

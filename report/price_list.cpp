@@ -132,7 +132,7 @@ void write_price_list(const std::vector<std::filesystem::path>& folders,
         for (BenchChoice& choice : read_bench(bench))
             choices.push_back(std::move(choice));
     const std::string text = price_list(studies, choices);
-    write_file_atomically(file, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    write_output_file(file, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
 }  // namespace treefarm

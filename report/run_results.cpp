@@ -5,11 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "common/base/error.h"
+#include "common/base/files/read_bytes.h"
 #include "common/runs/run_json.h"
 
 namespace treefarm {
@@ -28,7 +29,7 @@ struct Run {
 /// Settings of a job.toml in the form that this program writes: [section] lines, then key = value.
 Settings read_settings(const std::filesystem::path& file) {
     Settings settings;
-    std::ifstream in(file);
+    std::istringstream in(read_text(file));
     std::string section;
     for (std::string line; std::getline(in, line);) {
         const std::size_t equals = line.find(" = ");

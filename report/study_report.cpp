@@ -15,18 +15,24 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
     write_file_atomically(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
+WrittenReport written(const StudyResults& results, const std::filesystem::path& file) {
+    return {file, answers(results, main_clock(results)), busy_warning(results)};
+}
+
 }  // namespace
 
 WrittenReport write_page(const StudyResults& results, const std::filesystem::path& file) {
-    write_text(file, study_page(results));
-    return {file, answers(results, main_clock(results)), busy_warning(results)};
+    const std::string page = study_page(results);
+    write_output_file(file, {reinterpret_cast<const std::uint8_t*>(page.data()), page.size()});
+    return written(results, file);
 }
 
 WrittenReport write_study_report(const std::filesystem::path& folder) {
     const StudyResults results = read_study_results(folder);
     write_text(folder / "cells.csv", cells_csv(results));
     write_text(folder / "passes.csv", passes_csv(results));
-    return write_page(results, folder / "report.html");
+    write_text(folder / "report.html", study_page(results));
+    return written(results, folder / "report.html");
 }
 
 }  // namespace treefarm

@@ -3,7 +3,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "common/base/error.h"
@@ -47,9 +46,8 @@ std::string map_figure(const std::filesystem::path& folder, const TreeJson& map)
 }
 
 std::string cell_pictures(const CellResult& cell, const std::filesystem::path& file) {
-    std::ifstream in(file);
     try {
-        const TreeJson json = TreeJson::parse(in);
+        const TreeJson json = TreeJson::parse(read_text(file));
         const TreeJson& tree = json.at("tree");
         std::string html = fmt::format(
             "<h4>{}</h4>\n<p class=\"note\">{} regions, {} cells of T1; T2 in {:.1f} % of the regions, {} "

@@ -135,12 +135,9 @@ SiteResponse Site::status(const std::string& run) {
     return json_response(remembered("run " + run, [&] { return json_text(run_view(folder_, run, here_())); }));
 }
 
-std::string Site::list() const {
+std::string Site::list() {
     const FoundRuns found = find_runs(folder_);
-    const Here here = here_();
-    FileJson runs = FileJson::array();
-    for (const std::string& path : found.paths)
-        runs.push_back(run_entry(folder_, path, here));
+    const FileJson runs = entries_.of(folder_, found.paths, here_());
     std::error_code error;
     const std::string folder = std::filesystem::absolute(folder_.root(), error).lexically_normal().string();
     return json_text({{"kind", "runs"}, {"folder", folder}, {"runs", runs}, {"left_out", found.left_out}});

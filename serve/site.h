@@ -8,7 +8,7 @@
 
 #include "common/base/timer.h"
 #include "serve/confined_folder.h"
-#include "serve/run_view.h"
+#include "serve/run_entries.h"
 
 namespace treefarm {
 
@@ -52,7 +52,7 @@ class Site {
     SiteResponse status(const std::string& run);
     SiteResponse metrics();
     SiteResponse picture(const SiteRequest& request, const std::string& run) const;
-    std::string list() const;
+    std::string list();
     std::string remembered(const std::string& name, const std::function<std::string()>& make);
 
     const ConfinedFolder folder_;
@@ -61,6 +61,7 @@ class Site {
     const Timer clock_;
     std::mutex mutex_;
     std::map<std::string, Answer> answers_;
+    RunEntries entries_;  ///< of list()
 };
 
 }  // namespace treefarm

@@ -4,6 +4,8 @@
 #include <pthread.h>
 #include <unistd.h>
 
+#include <initializer_list>
+
 namespace treefarm {
 
 bool is_ignored(int number) {
@@ -15,11 +17,14 @@ void ignore_broken_pipes() {
     signal(SIGPIPE, SIG_IGN);
 }
 
+void ignore_size_limits() {
+    signal(SIGXFSZ, SIG_IGN);
+}
+
 InterruptWatch::InterruptWatch() : parent_(getppid()) {
     sigemptyset(&watched_);
-    sigaddset(&watched_, SIGINT);
-    sigaddset(&watched_, SIGTERM);
-    sigaddset(&watched_, SIGUSR1);
+    for (const int number : {SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGALRM, SIGXCPU})
+        sigaddset(&watched_, number);
     // A blocked signal stays pending even if it is ignored.
     if (!is_ignored(SIGHUP)) sigaddset(&watched_, SIGHUP);
     pthread_sigmask(SIG_BLOCK, &watched_, nullptr);
@@ -43,6 +48,7 @@ bool InterruptWatch::terminated() {
     sigset_t only;
     sigemptyset(&only);
     sigaddset(&only, SIGTERM);
+    sigaddset(&only, SIGXCPU);
     return has_come(only);
 }
 

@@ -9,18 +9,23 @@ namespace treefarm {
 /// Makes writes to a closed pipe fail instead of ending this process (`treefarm render ... | head`).
 void ignore_broken_pipes();
 
+/// Makes writes beyond the limit of a file's size (`ulimit -f`) fail, as on a full disk, instead of ending this
+/// process.
+void ignore_size_limits();
+
 /// Whether the parent process had a signal ignored, as nohup does.
 bool is_ignored(int number);
 
-/// Watch of SIGINT, SIGTERM, SIGHUP and SIGUSR1 (sent by treefarm launch, through mpirun), to be polled. Blocks them
-/// for this thread and threads that it starts later; no handler, no global state. A SIGHUP that was ignored before
-/// stays ignored: nohup.
+/// Watch of the signals that ask a program to end, to be polled: SIGINT, SIGTERM, SIGHUP, SIGUSR1 (sent by treefarm
+/// launch, through mpirun), SIGUSR2 and SIGALRM (sent by queues and timers before the end), SIGXCPU (`ulimit -t`).
+/// Blocks them for this thread and threads that it starts later; no handler, no global state. A SIGHUP that was ignored
+/// before stays ignored: nohup. SIGQUIT keeps its action, to end a program at once.
 class InterruptWatch {
   public:
     InterruptWatch();
     /// Whether any of the signals has arrived.
     bool interrupted();
-    /// Whether SIGTERM has arrived: a worker ignores the others.
+    /// Whether SIGTERM or SIGXCPU has arrived: a worker ignores the others.
     bool terminated();
     /// Whether the signal was SIGTERM from the parent process: mpirun sends it when it ends the job by itself after
     /// losing a host.

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/base/log.h"
 
-#include <fcntl.h>
 #include <spdlog/async.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/base_sink.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <mutex>
 #include <utility>
 
+#include "common/base/files/regular_file.h"
 #include "common/base/text/printable.h"
 
 namespace treefarm {
@@ -65,11 +66,12 @@ class AppendingSink final : public spdlog::sinks::base_sink<std::mutex> {
     void sink_it_(const spdlog::details::log_msg& message) override {
         spdlog::memory_buf_t line;
         formatter_->format(message, line);
-        const int fd = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-        if (fd < 0) return;
-        [[maybe_unused]] const ssize_t written = ::write(fd, line.data(), line.size());
-        ::close(fd);
+        Descriptor file = open();
+        if (!file && errno == ELOOP && ::unlink(file_.c_str()) == 0) file = open();  // a link is not followed
+        if (!file) return;
+        [[maybe_unused]] const ssize_t written = ::write(file.fd(), line.data(), line.size());
     }
+    Descriptor open() const { return open_regular(file_, O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW, 0666); }
     void flush_() override {}
 
     const std::filesystem::path file_;

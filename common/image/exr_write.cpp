@@ -211,7 +211,7 @@ std::vector<std::uint8_t> encode_exr(const std::filesystem::path& path, const Im
 }
 
 void write_exr(const std::filesystem::path& path, const Image& image, const Attributes& attributes, PixelType type) {
-    write_file_atomically(path, encode_exr(path, image, attributes, type));
+    write_output_file(path, encode_exr(path, image, attributes, type));
 }
 
 }  // namespace treefarm

@@ -65,7 +65,7 @@ std::vector<std::uint8_t> encode_png(const RgbImage& image, float exposure, std:
 }
 
 void write_png(const std::filesystem::path& path, const RgbImage& image, float exposure) {
-    write_file_atomically(path, encode_png(image, exposure));
+    write_output_file(path, encode_png(image, exposure));
 }
 
 }  // namespace treefarm

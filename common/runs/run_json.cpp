@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/runs/run_json.h"
 
-#include <fstream>
 #include <utility>
 
 #include "common/base/files/read_bytes.h"
@@ -73,8 +72,7 @@ RunJson read_run_json(const std::filesystem::path& path) {
 }
 
 RunJson read_whole_run_json(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return with_current_names(RunJson::parse(file));
+    return with_current_names(RunJson::parse(read_text(path)));
 }
 
 RunJson number_of(const RunJson& object, RunKey key) {

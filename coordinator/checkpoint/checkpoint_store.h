@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/error.h"
 #include "common/runs/run_files.h"
 #include "coordinator/checkpoint/state_codec.h"
 
@@ -25,14 +26,28 @@ struct LoadedCheckpoint {
     CheckpointOrigin origin;
     RenderState state;
     std::set<std::string> other_films;  ///< films named by the other file
+    std::set<std::string> lost_films;   ///< films whose file is missing or damaged: they have no pixels
     std::vector<std::string> warnings;  ///< damage of a newer checkpoint, if any
 };
 
 /// Highest generation stated by a run's checkpoint files, usable or not; 0: none.
 std::uint64_t newest_generation(const std::filesystem::path& run);
 
-/// Loads the newest usable checkpoint of a run. `check` throws if the origin does not fit. Throws InputError if there
-/// is none, with the fault of each.
+/// Whether a run has a checkpoint file, usable or not. A folder may hold films alone: a render was killed before it had
+/// written its first checkpoint.
+bool has_checkpoint_file(const std::filesystem::path& run);
+
+/// Whether load_checkpoint() would find a usable checkpoint, if the origin fits.
+bool has_usable_checkpoint(const std::filesystem::path& run);
+
+/// Error of a run without a usable checkpoint, with the fault of each file.
+class NoCheckpoint : public InputError {
+  public:
+    using InputError::InputError;
+};
+
+/// Loads the newest usable checkpoint of a run, or if both name a missing or damaged film the newer one, without the
+/// pixels of such films. `check` throws if the origin does not fit. Throws NoCheckpoint.
 LoadedCheckpoint load_checkpoint(const std::filesystem::path& run,
                                  const std::function<void(const CheckpointOrigin&)>& check);
 
@@ -60,11 +75,13 @@ class CheckpointStore {
 
     void write_generation(const SectionFile& file, const Names& names, const Films& films);
     void write_films(const Films& films);
+    void write_film(const std::string& name, std::span<const std::uint8_t> bytes);
     void make_folder() const;
     void remove_unnamed() const;
 
     const std::filesystem::path folder_;
     std::uint64_t generation_ = 0;  ///< of the checkpoint last prepared or written
+    Names intact_;                  ///< films whose files were read or written by this process; of the writing thread
     std::mutex mutex_;              ///< guards the members below
     Films unwritten_;               ///< of the checkpoint last prepared
     std::size_t slot_ = 0;          ///< file that is written next: 0 for a, 1 for b

@@ -9,6 +9,7 @@
 #include <cereal/types/optional.hpp>
 #include <utility>
 
+#include "common/base/hash.h"
 #include "common/film/pixel_codec.h"
 #include "common/protocol/archive.h"
 #include "common/protocol/plan_fields.h"
@@ -351,6 +352,10 @@ RenderState decode_state(const SectionFile& file, std::size_t pixels, std::span<
                 "an impossible report of a pass");
     require(state.aovs.fits(), "AOVs of another image");
     return state;
+}
+
+std::string film_name(std::span<const std::uint8_t> bytes) {
+    return "film-" + hash_text(hash128_bytes(bytes)) + ".tff";
 }
 
 Bytes encode_pixels(std::span<const PixelEstimate> pixels) {

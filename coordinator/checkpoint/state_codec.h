@@ -37,6 +37,8 @@ RenderState decode_state(const SectionFile& file, std::size_t pixels, std::span<
 /// Whether a file name is that of a film: "film-", 32 hexadecimal digits, ".tff".
 bool is_film_name(const std::string& name);
 
+/// Name of the file of a film, by its content.
+std::string film_name(std::span<const std::uint8_t> bytes);
 /// Content of a film's file.
 Bytes encode_pixels(std::span<const PixelEstimate> pixels);
 /// Pixels of a film's file. Throws FormatError if their number differs from `pixels`.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/farm/farm.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -193,6 +195,7 @@ std::vector<std::uint32_t> Farm::chain_without_scene() {
 void Farm::step() {
     // Between steps the caller combines, refines and writes, and messages may wait for more than one step.
     roster_.excuse(clock_.seconds() - listened_);
+    longest_silence_ = std::max(longest_silence_, clock_.seconds() - last_beat_);
     bool busy = false;
     for (int looks = 0; looks < kMostLooks && !pass_complete(); ++looks) {
         const auto message = channel_.poll();
@@ -223,7 +226,11 @@ void Farm::watch_for_silence() {
         alone_since_ = now;
         log_->warn("no worker answers: waiting {} for one to come back", limit_text(limits_.grace));
     }
-    if (!wait || now - *alone_since_ > limits_.grace) throw RunError("no worker is left" + why_nobody());
+    if (wait && now - *alone_since_ <= limits_.grace) return;
+    if (longest_silence_ <= limits_.heard) throw NoWorkerLeft("no worker is left" + why_nobody(), false);
+    throw NoWorkerLeft(fmt::format("no worker is left: this process was stopped for {:.0f} s, and they left meanwhile",
+                                   longest_silence_),
+                       true);
 }
 
 /// Description of a unit, with the command that traces it alone.
@@ -278,6 +285,7 @@ bool Farm::calm() const {
 
 void Farm::beat() {
     const double now = clock_.seconds();
+    longest_silence_ = std::max(longest_silence_, now - last_beat_);
     if (now - last_beat_ < job_.farm.heartbeat_seconds) return;
     last_beat_ = now;
     for (const int peer : channel_.peers()) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/timer.h"
 #include "common/comm/broadcast_chain.h"
@@ -26,6 +27,18 @@ struct FarmLimits {
     double dismiss = 5.0;  ///< wait at the end for good-byes
     double grace = 15.0;   ///< time without any worker before the render fails, if one may come back
     double asking = 0.2;   ///< window in which requests for the same tree or scene are served together
+    double heard = 25.0;   ///< silence of this process after which its workers may have left (they wait 30 s)
+};
+
+/// Failure of a render that has no worker left.
+class NoWorkerLeft : public RunError {
+  public:
+    NoWorkerLeft(const std::string& message, bool was_stopped) : RunError(message), was_stopped_(was_stopped) {}
+    /// Whether this process was stopped for so long that its workers may have left for that.
+    bool was_stopped() const { return was_stopped_; }
+
+  private:
+    bool was_stopped_;
 };
 
 /// Number of a job within one allocation, with the workers that are missing.
@@ -66,8 +79,8 @@ class Farm {
     /// Copies the pass's results so far, with its poison units.
     void fill(PartialPass& partial) const;
 
-    /// Handles messages, issues units and watches for silence; rests if nothing happened. Throws RunError if no worker
-    /// is left, and none has come back within FarmLimits::grace.
+    /// Handles messages, issues units and watches for silence; rests if nothing happened. Throws NoWorkerLeft if no
+    /// worker is left, and none has come back within FarmLimits::grace.
     void step();
 
     bool has_pass() const { return ledger_ != nullptr; }
@@ -167,6 +180,7 @@ class Farm {
     std::vector<int> not_ready_;  ///< peers that have not yet requested units of this pass
     bool requested_ = false;      ///< some worker has requested units
     double pass_began_ = 0, first_request_seconds_ = 0, broadcast_seconds_ = 0, last_beat_ = 0;
+    double longest_silence_ = 0;                         ///< longest time between two heartbeats of this process
     double listened_ = 0;                                ///< time at which step() last polled for messages
     std::optional<double> alone_since_;                  ///< time since when no worker is present
     std::set<int> told_job_;                             ///< peers that were told to join this job

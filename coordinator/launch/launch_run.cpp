@@ -22,6 +22,7 @@
 #include "common/base/text/printable.h"
 #include "common/base/timer.h"
 #include "common/comm/run_key.h"
+#include "coordinator/checkpoint/checkpoint_store.h"
 #include "coordinator/launch/attempt_folders.h"
 #include "coordinator/launch/attempt_processes.h"
 #include "coordinator/launch/child_process.h"
@@ -183,7 +184,8 @@ class LaunchRun {
         if (!folders_->trouble().empty()) note(folders_->trouble());
         if (number == 1) was_empty_ = folder_content(folder_.run()) == FolderContent::nothing;
         const bool goes_on = number > 1 && (was_empty_ || folder_.was_taken_by(launch_));
-        const std::vector<std::string> words = goes_on ? command_.again(folder_.checkpoint() > 0) : command_.first();
+        const std::vector<std::string> words =
+            goes_on ? command_.again(has_usable_checkpoint(folder_.run())) : command_.first();
         const std::vector<std::string> command = start_command(plan, words);
         note("attempt " + std::to_string(number) + ": " + shell_line(command));
         std::vector<std::string> variables;

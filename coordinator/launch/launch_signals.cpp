@@ -15,7 +15,7 @@ namespace treefarm {
 LaunchSignals::LaunchSignals() {
     sigset_t watched;
     sigemptyset(&watched);
-    for (const int number : {SIGINT, SIGTERM, SIGUSR1, SIGTSTP, SIGCONT, SIGCHLD})
+    for (const int number : {SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGALRM, SIGXCPU, SIGTSTP, SIGCONT, SIGCHLD})
         sigaddset(&watched, number);
     if (!is_ignored(SIGHUP)) sigaddset(&watched, SIGHUP);
     sigprocmask(SIG_BLOCK, &watched, &before_);

@@ -28,7 +28,7 @@ RenderFigures read_figures(const fs::path& folder) {
 }
 
 bool holds_result(const fs::path& folder) {
-    return text_in(read_run_json(folder / kSummaryFile), "state") == "done" && fs::exists(folder / kImageFile);
+    return text_in(read_run_json(folder / kSummaryFile), "state") == "done" && is_exr_file(folder / kImageFile);
 }
 
 bool holds_result_of(const fs::path& folder, const RenderRequest& request) {
@@ -40,14 +40,15 @@ bool holds_result_of(const fs::path& folder, const RenderRequest& request) {
 }
 
 bool restore_output(const fs::path& folder, const std::string& file) {
-    if (file.empty() || fs::exists(file)) return true;
+    std::error_code none;  // an empty file was left by a loss of power
+    if (file.empty() || (fs::exists(file) && !(fs::is_regular_file(file) && fs::is_empty(file, none)))) return true;
     const bool is_png = fs::path(file).extension() == ".png";
     if (is_png) {
         const std::vector<std::string> channels = exr_channel_names(folder / kImageFile);
         if (std::find(channels.begin(), channels.end(), "A") != channels.end()) {
             const Image image = read_exr(folder / kImageFile).image;
             const std::span<const float> alpha = alpha_of(image);
-            write_file_atomically(file, encode_png(straight_colours(rgb_layer(image).value(), alpha), 1.0f, alpha));
+            write_output_file(file, encode_png(straight_colours(rgb_layer(image).value(), alpha), 1.0f, alpha));
             return true;
         }
     }
@@ -55,7 +56,7 @@ bool restore_output(const fs::path& folder, const std::string& file) {
     const fs::path from = folder / (is_png ? kPreviewFile : kImageFile);
     const std::string bytes = read_text(from);
     if (bytes.empty()) return false;
-    write_file_atomically(file, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+    write_output_file(file, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
     return true;
 }
 

@@ -23,7 +23,8 @@ bool begins(const std::vector<PassPlan>& plans, const RenderState& state) {
 
 /// State before the sample's pass, as far as a checkpoint has it; otherwise the state before any pass.
 RenderState nearest_state(const RenderRequest& request, const std::vector<PassPlan>& plans, std::uint32_t pass) {
-    if (request.start.checkpoint && begins(plans, request.start.checkpoint->state)) {
+    if (request.start.checkpoint && request.start.checkpoint->lost_films.empty() &&
+        begins(plans, request.start.checkpoint->state)) {
         RenderState& state = request.start.checkpoint->state;
         // Unless the pass taught it something: an unguided pass may decide on next event.
         const PassPlan* const last = state.reports.empty() ? nullptr : &state.reports.back().plan;

@@ -10,6 +10,7 @@
 #include "coordinator/farm/join_listener.h"
 #include "coordinator/farm/memory_check.h"
 #include "coordinator/render/render_log.h"
+#include "coordinator/render/retrace_films.h"
 #include "coordinator/run/run_directory.h"
 
 namespace treefarm {
@@ -61,6 +62,15 @@ class RenderRun {
             else
                 directory_.give_back();
             throw;
+        } catch (const NoWorkerLeft& failure) {
+            // A signal to mpirun may end the workers first. treefarm launch starts again after a failure.
+            const bool stopped = failure.was_stopped() && request_.origin.attempt.empty();
+            result_.interrupted = interrupted_() || stopped;
+            if (result_.interrupted)
+                end.state = RunState::interrupted;
+            else
+                end.error = failure.what();
+            if (stopped) log_->warn("{}", failure.what());
         } catch (const std::bad_alloc&) {
             end.error = "not enough memory; render a smaller image, or on a machine that has more";
         } catch (const std::exception& failure) {
@@ -106,13 +116,13 @@ class RenderRun {
         enter(LifePhase::gather);
         if (checks_memory(request_)) farm_.require_of_guests(still_to_come(request_.content.plan.memory.worker));
         farm_.gather(interrupted_);
+        farm_.allow_negative(film.is_signed());
         if (request_.start.checkpoint) {
-            result_.interrupted = interrupted_();
+            result_.interrupted = interrupted_() || !complete(state);
             if (result_.interrupted) return;
             directory_.write_request();
             went_on_ = true;
         }
-        farm_.allow_negative(film.is_signed());
         if (checks_memory(request_))
             check_memory(request_.content.plan.memory, this_host(), farm_.roster(), request_.content.job.scene.file);
         log_->debug("{} workers with {} threads", farm_.roster().present_count(), farm_.roster().thread_count());
@@ -150,6 +160,17 @@ class RenderRun {
         result_ = run_passes(farm_, job(), passes, std::move(state), film.width, film.height, hooks);
     }
 
+    /// Completes the resumed state, if films of it were lost; false: interrupted.
+    bool complete(RenderState& state) {
+        PassHooks hooks;
+        hooks.interrupted = interrupted_;
+        hooks.on_progress = [this](const RenderProgress& progress) {
+            if (observer_.progress) observer_.progress(progress, farm_.roster());
+            tell_news();
+        };
+        return retrace_films(farm_, request_, state, hooks);
+    }
+
     void enter(LifePhase phase) const {
         if (observer_.phase) observer_.phase(phase);
     }
@@ -166,8 +187,7 @@ class RenderRun {
         outcome.error = end.error;
         outcome.missed_target = end.state == RunState::done && missed_target(request_, result_);
         outcome.folder = directory_.path();
-        std::error_code unknown;
-        outcome.resumable = std::filesystem::exists(outcome.folder / kCheckpointFolder, unknown);
+        outcome.resumable = has_checkpoint_file(outcome.folder);
         outcome.lost_peers = farm_.lost_peers();
         outcome.left_peers = farm_.left_peers();
         outcome.result = std::move(result_);

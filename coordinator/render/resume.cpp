@@ -22,8 +22,9 @@ namespace fs = std::filesystem;
 
 void check_directory(const fs::path& run) {
     check_run_folder(run);
-    if (!fs::exists(run / kCheckpointFolder)) refuse_if_at_work(run);
-    if (!fs::exists(run / kCheckpointFolder))
+    if (has_checkpoint_file(run)) return;
+    refuse_if_at_work(run);
+    if (!has_checkpoint_file(run))
         refuse(run, "holds no checkpoint: too little was done, or none was to be kept",
                "render again: treefarm render " + shell_quoted((run / kJobFile).string()));
 }
@@ -113,6 +114,8 @@ RenderRequest read_resumed(const fs::path& run, RenderInput input, const RenderO
     input.settings.push_back({"output.directory", run.string(), Location{"--run-dir", 0, 0}});
     RenderRequest request = read_request(input, origin);
     auto loaded = load(run, request, set);
+    // Lost films are traced again from the first pass on, which that model guides.
+    if (!loaded->lost_films.empty()) read_initial_model(request);
     if (request.content.job.output.file.empty()) request.content.job.output.file = loaded->origin.output_file;
     go_on_from(std::move(loaded), run, request);
     return request;
@@ -131,12 +134,16 @@ std::optional<RenderOutcome> go_on_in_folder(RenderRequest& request) {
         RenderOutcome outcome;
         outcome.state = RunState::done;
         outcome.missed_target = read_figures(run).missed_target;
-        outcome.resumable = fs::exists(run / kCheckpointFolder);
+        outcome.resumable = has_checkpoint_file(run);
         outcome.folder = run;
         return outcome;
     }
-    if (fs::exists(run / kCheckpointFolder)) try {
+    if (has_checkpoint_file(run)) try {
             go_on_from(load(run, request), run, request);
+        } catch (const NoCheckpoint& damage) {
+            if (holds_result(run) && !request.storage.overwrite) throw;
+            request.content.warnings.push_back(damage.where().text() + ": " + damage.problem() +
+                                               ": the render begins again");
         } catch (const InputError&) {
             if (!request.storage.overwrite) throw;
             request.start.checkpoint = nullptr;
@@ -147,7 +154,7 @@ std::optional<RenderOutcome> go_on_in_folder(RenderRequest& request) {
 }
 
 std::shared_ptr<LoadedCheckpoint> find_checkpoint(const fs::path& run, const RenderRequest& request) {
-    if (run.empty() || !fs::exists(run / kCheckpointFolder)) return nullptr;
+    if (run.empty()) return nullptr;
     try {
         return load(run, request);
     } catch (const InputError&) {  // the checkpoint only saves time

@@ -277,12 +277,12 @@ std::vector<LastFile> RunDirectory::last_files(const RenderResult& result, Outli
         if (!job_.output.file.empty())
             files.push_back({job_.output.file, [=, this] {
                                  if (fs::path(job_.output.file).extension() == ".png")
-                                     write_file_atomically(
+                                     write_output_file(
                                          job_.output.file,
                                          encode_picture(*result.image, *result.aovs, result.width, result.height),
                                          outlives);
                                  else
-                                     write_file_atomically(job_.output.file, image(), outlives);
+                                     write_output_file(job_.output.file, image(), outlives);
                              }});
         add(kPassesFile, [=, this] { write_text(kPassesFile, passes_csv_, outlives); });
         add(kScheduleFile, [=, this] { write_text(kScheduleFile, write_schedule(passes_), outlives); });

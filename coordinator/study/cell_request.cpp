@@ -4,7 +4,8 @@
 #include "common/base/hash.h"
 #include "common/config/check_job.h"
 #include "common/config/job_reader.h"
-#include "common/runs/run_files.h"
+#include "common/image/exr.h"
+#include "common/runs/run_json.h"
 #include "common/scene/pack/scene_codec.h"
 #include "coordinator/render/read_request.h"
 
@@ -72,7 +73,8 @@ std::string folder_name(const std::string& words, std::uint64_t key) {
 }
 
 bool ReadyCell::done() const {
-    return std::filesystem::exists(folder / kCellFile);
+    // A damaged file is none.
+    return !read_run_json(folder / kCellFile).empty() && is_exr_file(folder / kImageFile);
 }
 
 ReadyCell ready_cell(const Study& study, const StudyCell& cell, const LoadedScene& loaded,

@@ -8,7 +8,7 @@
 
 #include "common/base/hash.h"
 #include "common/image/exr.h"
-#include "common/runs/run_files.h"
+#include "common/runs/run_json.h"
 
 namespace treefarm {
 
@@ -32,6 +32,10 @@ void check_given(const RgbImage& image, const Film& film, const Location& where)
 }
 
 }  // namespace
+
+bool Reference::is_there() const {
+    return !read_run_json(mark()).empty() && is_exr_file(file);
+}
 
 std::string reference_key(const Study& study, const StudyScene& scene, const LoadedScene& loaded, Reference& reference,
                           RenderRequest& request, const RenderOrigin& origin) {

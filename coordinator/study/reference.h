@@ -20,6 +20,8 @@ struct Reference {
 
     /// Marker file of a completely rendered reference: an interrupted one has an image, too, but no marker.
     std::filesystem::path mark() const { return std::filesystem::path(file).parent_path() / "reference.json"; }
+    /// Whether a rendered reference is complete.
+    bool is_there() const;
 };
 
 /// Key of a given reference, or of the request that renders one.

@@ -10,7 +10,7 @@
 #include "common/base/text/duration_text.h"
 #include "common/base/text/parse_text.h"
 #include "common/image/exr.h"
-#include "common/runs/run_files.h"
+#include "common/runs/run_json.h"
 #include "coordinator/farm/pulse.h"
 #include "coordinator/run/folder_lock.h"
 #include "coordinator/run/result_image.h"
@@ -144,7 +144,7 @@ class StudyRun {
     void prepare_reference(std::size_t scene, Reference& reference, RenderRequest& request) {
         const StudyScene& of = study_.scenes[scene];
         if (of.reference.empty()) {
-            if (!fs::exists(reference.mark())) {
+            if (!reference.is_there()) {
                 log_->info("{}: rendering the reference", of.name);
                 const fs::path folder = fs::path(reference.file).parent_path();
                 const auto frame = [&of](const RenderWords& w) {

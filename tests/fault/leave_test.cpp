@@ -91,7 +91,8 @@ TEST_F(Leaving, TheLastOneEndsTheRenderWhichCanBeGoneOnWith) {
     try {
         render({.gather = 20, .lost = 20, .dismiss = 20, .grace = 0.2});
         FAIL() << "nobody is left";
-    } catch (const RunError& error) {
+    } catch (const NoWorkerLeft& error) {
+        EXPECT_FALSE(error.was_stopped());
         EXPECT_NE(std::string(error.what()).find("no worker is left"), std::string::npos) << error.what();
     }
     hooks_ = {};
@@ -100,6 +101,23 @@ TEST_F(Leaving, TheLastOneEndsTheRenderWhichCanBeGoneOnWith) {
     make_workers(2);
     resumed_ = std::move(last);
     expect_truth(render());
+}
+
+/// As by SIGSTOP, or on a laptop that slept: its workers leave after 30 s of silence.
+TEST_F(Leave, AfterALongSilenceOfTheCoordinatorThatIsToldAsTheReason) {
+    make_workers(1);
+    tell_at_result(0, 3);
+    hooks_.on_progress = [this](const RenderProgress&) {
+        if (told_) std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    };
+    try {
+        render({.gather = 20, .lost = 20, .dismiss = 20, .grace = 0.2, .heard = 0.1});
+        FAIL() << "nobody is left";
+    } catch (const NoWorkerLeft& error) {
+        EXPECT_TRUE(error.was_stopped());
+        EXPECT_NE(std::string(error.what()).find("this process was stopped for 0 s"), std::string::npos)
+            << error.what();
+    }
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ TEST(Ending, BadUsageEndsWithCode2AndOneLine) {
 }
 
 TEST(Ending, ASignalKeepsFinishedPasses) {
-    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
         const auto folder = fresh_folder("run");
         Program program(long_render(folder, "1000000"));
         ASSERT_TRUE(program.wait_until([&] { return passes_done(folder) >= 2; }, kSoon));
@@ -82,6 +82,19 @@ TEST(Ending, ASignalKeepsFinishedPasses) {
         EXPECT_EQ(read_summary(folder)["state"], "interrupted");
         EXPECT_TRUE(std::filesystem::exists(folder / "image.exr"));
     }
+}
+
+TEST(Ending, ALimitOfFileSizesIsLikeAFullDisk) {
+    const auto folder = fresh_folder("run"), output = fresh_folder("out") / "small.png";
+    std::string command = "ulimit -f 20; exec";  // KiB: image and films are larger, the picture is not
+    for (const std::string& word : render(own_scene("cornell-box.xml"), folder,
+                                          {"-D", "size=64", "--spp", "31", "--threads", "1", "-o", output.string()}))
+        command += " '" + word + "'";
+    const Ending ending = Program({"/bin/bash", "-c", command}).wait(kSoon);
+    EXPECT_EQ(ending.code, 1) << ending.output;
+    EXPECT_NE(ending.output.find("image.exr: cannot write (File too large)"), std::string::npos) << ending.output;
+    EXPECT_EQ(read_summary(folder)["state"], "failed");
+    EXPECT_TRUE(std::filesystem::exists(output));
 }
 
 TEST(Ending, ASignalToMpirunEndsEverything) {

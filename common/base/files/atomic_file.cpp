@@ -53,7 +53,7 @@ fs::path temporary_name(const fs::path& target) {
 }
 
 int write_whole(const fs::path& path, Pieces pieces, Outlives outlives, const fs::file_status& old) {
-    const bool replaces = fs::exists(old);
+    const bool replaces = fs::is_regular_file(old);
     const auto mode = replaces ? static_cast<mode_t>(old.permissions() & fs::perms::all) : mode_t{0666};
     // O_EXCL opens neither an existing file nor a link.
     Descriptor file = Descriptor::open(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, mode);
@@ -89,25 +89,31 @@ void write_file_atomically(const fs::path& path, std::span<const std::uint8_t> b
 
 void write_pieces_atomically(const fs::path& path, Pieces pieces, Outlives outlives) {
     std::error_code none;
-    const fs::file_status status = fs::status(path, none);
-    if (fs::is_directory(status)) fail(path, "write", EISDIR);
-    if (fs::exists(status) && !fs::is_regular_file(status)) return write_special(path, pieces);
-
-    // A symbolic link is kept: its target is replaced.
-    const fs::path target = fs::exists(status) ? fs::canonical(path, none) : path;
-    const fs::path temporary = temporary_name(target);
-    int error = write_whole(temporary, pieces, outlives, status);
-    if (error == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
+    const fs::file_status old = fs::symlink_status(path, none);
+    if (fs::is_directory(old)) fail(path, "write", EISDIR);
+    if (fs::exists(old) && !fs::is_regular_file(old) && !fs::is_symlink(old))
+        throw FileError(path.string() + ": is a pipe or a device, not a file; remove it", EINVAL);
+    const fs::path temporary = temporary_name(path);
+    int error = write_whole(temporary, pieces, outlives, old);
+    if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
     if (error != 0) {
         if (error != EEXIST) ::unlink(temporary.c_str());
         fail(path, "write", error);
     }
-    if (outlives == Outlives::power) sync_folder(target);
+    if (outlives == Outlives::power) sync_folder(path);
+}
+
+void write_output_file(const fs::path& path, std::span<const std::uint8_t> bytes, Outlives outlives) {
+    std::error_code none;
+    const fs::file_status status = fs::status(path, none);
+    if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
+        return write_special(path, {&bytes, 1});
+    write_file_atomically(fs::exists(status) ? fs::canonical(path, none) : path, bytes, outlives);
 }
 
 void make_durable(const fs::path& path) {
     {
-        const Descriptor file = Descriptor::open(path, O_RDONLY);
+        const Descriptor file = Descriptor::open(path, O_RDONLY | O_NONBLOCK);  // a pipe would wait for its other end
         if (file) ::fsync(file.fd());
     }
     sync_folder(path);

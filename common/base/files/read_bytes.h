@@ -16,7 +16,7 @@ inline constexpr std::uintmax_t kMostBytes = 0x7fffffff;
 std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path, const std::string& cure,
                                      std::uintmax_t most = kMostBytes);
 
-/// Content of a file that may be missing or unreadable: empty, or as far as it can be read.
+/// Content of a file that may be missing, unreadable or no regular file: empty, or as far as it can be read.
 std::string read_text(const std::filesystem::path& path);
 
 }  // namespace treefarm

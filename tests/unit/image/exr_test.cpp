@@ -8,6 +8,7 @@
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,8 @@
 
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
+#include "common/base/files/read_bytes.h"
+#include "common/base/files/regular_file.h"
 #include "tests/support/refusal.h"
 #include "tests/support/test_folder.h"
 
@@ -242,16 +245,37 @@ TEST(AtomicFile, AFailureKeepsTheOldFile) {
     fs::remove(folder);
 }
 
-TEST(AtomicFile, WritesThroughLinksAndToDevices) {
+TEST(AtomicFile, OfAUserIsWrittenThroughLinksAndToDevices) {
     const fs::path path = fresh("file.bin"), link = fresh("link");
     const std::vector<std::uint8_t> old_bytes{1}, new_bytes{65};
     write_file_atomically(path, old_bytes);
     fs::create_symlink(path, link);
-    write_file_atomically(link, new_bytes);
+    write_output_file(link, new_bytes);
     EXPECT_TRUE(fs::is_symlink(link));
     EXPECT_EQ(test::read_file(path), "A");
-    write_file_atomically("/dev/null", new_bytes);
+    write_output_file("/dev/null", new_bytes);
     EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST(AtomicFile, OfTheProgramReplacesALinkAndRefusesAPipeOrDevice) {
+    const fs::path path = fresh("own.bin"), link = fresh("own-link"), pipe = fresh("own-pipe");
+    const std::vector<std::uint8_t> old_bytes{66}, new_bytes{65};
+    write_file_atomically(path, old_bytes);
+    fs::create_symlink(path, link);
+    write_file_atomically(link, new_bytes);
+    EXPECT_FALSE(fs::is_symlink(link));
+    EXPECT_EQ(test::read_file(link), "A");
+    EXPECT_EQ(test::read_file(path), "B") << "what the link led to";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    for (const fs::path& special : {pipe, fs::path("/dev/full")}) {
+        EXPECT_THROW(write_file_atomically(special, new_bytes), FileError);
+        EXPECT_FALSE(fs::is_regular_file(special));
+    }
+    EXPECT_EQ(read_text(pipe), "") << "without waiting for a writer";
+    EXPECT_FALSE(open_regular(pipe, O_RDONLY));
+    EXPECT_FALSE(open_regular("/dev/full", O_WRONLY));
+    EXPECT_FALSE(open_regular(path.parent_path(), O_RDONLY));
+    EXPECT_TRUE(open_regular(path, O_RDONLY));
 }
 
 TEST(Image, LayersRoundTrip) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <spdlog/sinks/ostream_sink.h>
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -14,6 +15,7 @@
 #include "tests/support/test_folder.h"
 #include "tests/support/test_scenes.h"
 #include "worker/local_worker.h"
+#include "worker/registry.h"
 
 namespace treefarm {
 namespace {
@@ -101,6 +103,27 @@ TEST_F(Folders, WithoutCheckpointsTheOldOneStaysUntilTheRenderIsDone) {
 
     EXPECT_EQ(render(more(12, 0.0)), RunState::done);
     EXPECT_FALSE(fs::exists(folder_ / kCheckpointFolder));
+}
+
+/// A signal to mpirun reaches the workers, too: they may have left before it is seen here.
+TEST_F(Folders, AnInterruptionThatTheWorkersHeedFirstIsNoFailure) {
+    std::atomic<bool> leave{false}, asked{false};
+    RenderRequest wanted = request(100'000);
+    wanted.workers.local = [&](Channel& own) {
+        WorkerSettings settings = worker_here(1, Fingerprint().hash());
+        settings.told_to_leave = [&] { return leave.load(); };
+        run_worker(own, settings, make_renderer, make_log("worker", {}, TellMessage()));
+    };
+    RenderObserver observer;
+    observer.pass = [&](const PassReport&, const CombinedImage&) { leave = true; };
+    observer.message = [&](MessageLevel, const std::string& text) {
+        if (text.find("leaves, as it was told") != std::string::npos) asked = true;
+    };
+    EXPECT_EQ(render(
+                  wanted, [&] { return asked.load(); }, observer),
+              RunState::interrupted);
+    EXPECT_NE(files()["summary.json"].find("\"interrupted\""), std::string::npos) << files()["summary.json"];
+    EXPECT_NE(files()["log.txt"].find("go on with: treefarm resume"), std::string::npos) << files()["log.txt"];
 }
 
 /// A shot of three frames, whose index cannot be written from the second frame on.

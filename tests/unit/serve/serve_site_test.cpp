@@ -154,6 +154,28 @@ TEST_F(ServeSite, AnswersAreJsonForARunAndForAFolder) {
     EXPECT_EQ(FileJson::parse(itself.respond(request("/status.json")).body)["title"], "box");
 }
 
+TEST_F(ServeSite, AnEntryOfTheListIsMadeAnewOnceAFileHasChanged) {
+    const fs::path status = folder / "runs/box/status.json";
+    const std::string done = R"({"state": "done", "spp": 64, "time": 999990})";
+    test::write_file(status, done);
+    const auto written = fs::last_write_time(status);
+    const ConfinedFolder runs(folder / "runs");
+    RunEntries entries;
+    const auto entry = [&](std::int64_t now) { return entries.of(runs, {"box"}, here_at(now))[0]; };
+    EXPECT_EQ(entry(kNow)["spp"], 64);
+    EXPECT_EQ(entry(kNow + 5)["age_seconds"], 15.0);
+    EXPECT_EQ(entry(kNow + 7)["age_seconds"], 17.0);
+    std::ofstream(status) << R"({"state": "done", "spp": 65, "time": 999990})";
+    fs::last_write_time(status, written);
+    EXPECT_EQ(entry(kNow)["spp"], 64) << "a file of the same size and time is not read again";
+    fs::last_write_time(status, written + std::chrono::seconds(1));
+    EXPECT_EQ(entry(kNow)["spp"], 65);
+    test::write_file(status, running_status(kNow));
+    EXPECT_EQ(entry(kNow)["state"], "running");
+    EXPECT_EQ(entry(kNow + 100)["state"], "silent") << "of a file that has not changed";
+    EXPECT_TRUE(entries.of(runs, {}, here_at(kNow)).empty());
+}
+
 TEST_F(ServeSite, APictureIsSentOnce) {
     Site all = site();
     SiteRequest asked = request("/preview.png", "box");
