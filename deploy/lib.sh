@@ -28,15 +28,17 @@ build() {
         fail "the build of the preset '$preset' failed (see above); if it was configured long ago, remove build/$preset"
 }
 
-# tell_build PRESET TARGET: what building the target takes, before it starts; of a build that is configured. A step takes a core some
-# 5.4 seconds (bench/build_cost measures it), less where ccache has its result.
+# tell_build PRESET TARGET: what building the target takes, before it starts; of a build that is configured. It counts the files that Ninja
+# would make and that are not there: a dry run of Ninja lists CMake's own step alone. A step takes a core some 5.4 seconds
+# (bench/build_cost measures it), less where ccache has its result.
 tell_build() {
-    local steps cores
-    ninja -C "$root/build/$1" build.ninja >/dev/null 2>&1 || true # where a CMake file has changed, it lists one step only: CMake
-    steps="$(ninja -C "$root/build/$1" -n "$2" 2>/dev/null | sed -nE 's|^\[[0-9]+/([0-9]+)\].*|\1|p' | tail -n 1)"
+    local folder="$root/build/$1" steps=0 cores file
     cores="$(nproc)"
-    if [[ -z "$steps" ]]; then
-        echo "deploy/$(basename "$0"): the program is built"
+    while read -r file; do
+        [[ -e "$folder/$file" ]] || ((++steps))
+    done < <(ninja -C "$folder" -t inputs "$2" | grep -E '\.(o|a|gch)$'; echo "$2")
+    if ((steps == 0)); then
+        echo "deploy/$(basename "$0"): the program is there; what has changed is built again"
     else
         echo "deploy/$(basename "$0"): to build: $steps steps, about $((steps * 27 / 5 / cores / 60 + 1)) min on $cores cores" \
             "that do nothing else"
