@@ -13,21 +13,30 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)  # w
 # Not below doc, which minimal systems leave out of packages.
 install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/treefarm PATTERN "__pycache__" EXCLUDE)
 
-# Man pages say what --help says. A sanitizer's program may not run as it is.
+# What a queue runs; programs keep their rights.
+install(DIRECTORY deploy/slurm deploy/opencue deploy/flamenco deploy/kubernetes DESTINATION ${CMAKE_INSTALL_DATADIR}/treefarm/deploy
+        USE_SOURCE_PERMISSIONS PATTERN "__pycache__" EXCLUDE)
+install(FILES deploy/hostfile DESTINATION ${CMAKE_INSTALL_DATADIR}/treefarm/deploy)
+
+# Man pages say what --help says. They are written where they are installed, whatever target was built. A sanitizer's program may not
+# run as it is.
 find_program(TREEFARM_HELP2MAN help2man)
-if(TREEFARM_HELP2MAN AND NOT TREEFARM_SANITIZE AND NOT TREEFARM_FUZZ)
+if(NOT TREEFARM_HELP2MAN)
+    message(STATUS "no man pages will be installed: help2man is missing")
+elseif(NOT TREEFARM_SANITIZE AND NOT TREEFARM_FUZZ)
     set(man ${PROJECT_BINARY_DIR}/man)
-    set(pages)
-    foreach(command IN ITEMS "" render resume launch join serve plan check compare convert inspect study report keys)
-        string(JOIN "-" name treefarm ${command})
-        add_custom_command(OUTPUT ${man}/${name}.1 DEPENDS treefarm cmake/write_man_page.cmake VERBATIM
-            COMMAND ${CMAKE_COMMAND} -DHELP2MAN=${TREEFARM_HELP2MAN} -DPROGRAM=$<TARGET_FILE:treefarm> -DCOMMAND=${command}
-                    -DVERSION=${PROJECT_VERSION} -DOUTPUT=${man}/${name}.1
-                    -P ${PROJECT_SOURCE_DIR}/cmake/write_man_page.cmake)
-        list(APPEND pages ${man}/${name}.1)
-    endforeach()
-    add_custom_target(man ALL DEPENDS ${pages})
-    install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)  # built with `all`
+    install(CODE "
+        file(REMOVE_RECURSE \"${man}\")
+        foreach(command IN ITEMS \"\" render resume launch join serve plan check compare convert inspect study report keys)
+            string(JOIN \"-\" name treefarm \${command})
+            execute_process(COMMAND \"${CMAKE_COMMAND}\" \"-DHELP2MAN=${TREEFARM_HELP2MAN}\" \"-DPROGRAM=$<TARGET_FILE:treefarm>\"
+                    -DCOMMAND=\${command} -DVERSION=${PROJECT_VERSION} \"-DOUTPUT=${man}/\${name}.1\"
+                    -P \"${PROJECT_SOURCE_DIR}/cmake/write_man_page.cmake\" RESULT_VARIABLE failed)
+            if(failed)
+                message(FATAL_ERROR \"the man page \${name}.1 could not be written (see above)\")
+            endif()
+        endforeach()")
+    install(DIRECTORY ${man}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 FILES_MATCHING PATTERN "*.1" PATTERN "asked" EXCLUDE)
 endif()
 
 # Editors and clang-tidy look for it at the root; of builds that compile each file by itself the first one has it.

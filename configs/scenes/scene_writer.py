@@ -264,3 +264,33 @@ def write_torus(path, radius, thickness, around, across, what, script):
             lines += ["f " + " ".join(f"{k}//{k}" for k in corner)
                       for corner in ((a + c, b + c, b + d), (a + c, b + d, a + d))]
     path.write_text("\n".join(lines) + "\n")
+
+
+def write_grid(path, point, columns, rows, what, script):
+    """An OBJ mesh, smooth: point(u, v) for u and v from 0 to 1. What meets itself (u = 0 and 1, poles) stays a seam without a gap."""
+    at = [[tuple(f"{x:.4f}" for x in point(i / columns, j / rows)) for i in range(columns + 1)] for j in range(rows + 1)]
+
+    def normal(i, j):
+        u, v, step = i / columns, j / rows, 1e-4
+        v = min(max(v, 1e-3), 1 - 1e-3)  # beside a pole
+        a, b, c, d = point(u - step, v), point(u + step, v), point(u, v - step), point(u, v + step)
+        s, t = [y - x for x, y in zip(a, b)], [y - x for x, y in zip(c, d)]
+        n = (t[1] * s[2] - t[2] * s[1], t[2] * s[0] - t[0] * s[2], t[0] * s[1] - t[1] * s[0])
+        length = math.hypot(*n) or 1.0
+        return [x / length for x in n]
+
+    def area(corners):
+        p, q, r = ([float(x) for x in at[(k - 1) // (columns + 1)][(k - 1) % (columns + 1)]] for k in corners)
+        s, t = [b - a for a, b in zip(p, q)], [b - a for a, b in zip(p, r)]
+        return math.hypot(s[1] * t[2] - s[2] * t[1], s[2] * t[0] - s[0] * t[2], s[0] * t[1] - s[1] * t[0]) / 2
+
+    lines = [f"# {what}, written by {script}"]
+    lines += [f"v {x} {y} {z}" for row in at for x, y, z in row]
+    lines += ["vn {:.3f} {:.3f} {:.3f}".format(*normal(i, j)) for j in range(rows + 1) for i in range(columns + 1)]
+    for j in range(rows):
+        for i in range(columns):
+            a = j * (columns + 1) + i + 1
+            b = a + columns + 1
+            lines += ["f " + " ".join(f"{k}//{k}" for k in corners) for corners in ((a, b, b + 1), (a, b + 1, a + 1))
+                      if area(corners) > 1e-9]  # none at poles
+    path.write_text("\n".join(lines) + "\n")
