@@ -309,12 +309,11 @@ Speeds Farm::speeds() const {
 }
 
 /// Seconds that a copy of a unit at `member` is expected to save, if `holder` has it.
-double Farm::copy_gain(const Member& member, int holder, const WorkUnit& unit, const Speeds& all) const {
-    // A unit that may kill its workers is not copied from one that may be dead.
-    constexpr double kHeartbeats = 3.0;
-    const auto found = roster_.members().find(holder);
-    if (ledger_->is_suspect(unit) && found != roster_.members().end() &&
-        clock_.seconds() - found->second.last_heard > kHeartbeats * job_.farm.heartbeat_seconds)
+double Farm::copy_gain(const Member& member, int holder, const WorkUnit& unit, const Speeds& all) {
+    constexpr double kHeartbeats = 3.0;  // a unit that may kill its workers is not copied from one that may be dead
+    const Member* other = roster_.find(holder);
+    if (ledger_->is_suspect(unit) && other &&
+        clock_.seconds() - other->last_heard > kHeartbeats * job_.farm.heartbeat_seconds)
         return 0;
     return all.gain(member.peer, ledger_->paths(unit), holder, ledger_->outstanding_paths(holder));
 }

@@ -142,7 +142,7 @@ class Farm {
     void announce(int peer);
     Speeds speeds() const;
     double pass_result_seconds() const;
-    double copy_gain(const Member& member, int holder, const WorkUnit& unit, const Speeds& all) const;
+    double copy_gain(const Member& member, int holder, const WorkUnit& unit, const Speeds& all);
     bool serve(Member& member, const Speeds& all);
     bool serve_copies(Member& member, const Speeds& all);
     void serve_all();

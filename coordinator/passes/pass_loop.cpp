@@ -48,7 +48,8 @@ class PassLoop {
             if (collecting_) note_partial_pass();
         } catch (const std::bad_alloc&) {  // the finished passes are kept
         }
-        if (!state_.reports.empty() || state_.partial) hooks_.on_last_state(std::move(state_));
+        if (!state_.reports.empty() || state_.partial)
+            farm_.beat_during([&] { hooks_.on_last_state(std::move(state_)); });
     }
 
     /// Adds the partial results of the present pass to the state.
@@ -225,8 +226,10 @@ class PassLoop {
         set_result();
         is_first_ = false;
         if (hooks_.on_pass) hooks_.on_pass(report, *result_.image);
-        if (hooks_.on_result) hooks_.on_result(result_);
-        if (hooks_.on_state) hooks_.on_state(state_);
+        farm_.beat_during([&] {  // copies of a large image take long
+            if (hooks_.on_result) hooks_.on_result(result_);
+            if (hooks_.on_state) hooks_.on_state(state_);
+        });
     }
 
     void set_result() {

@@ -90,7 +90,9 @@ class RenderRun {
         end.elapsed_seconds = clock_.seconds();
         tell_news();
         if (request_.start.checkpoint && (!went_on_ || result_.spp < spp_before_)) return leave(end);
-        for (const std::string& failure : directory_.finish(result_, &farm_, end))
+        std::vector<std::string> failures;  // workers that hear nothing for half a minute would leave, and end the job
+        farm_.beat_during([&] { failures = directory_.finish(result_, &farm_, end); });
+        for (const std::string& failure : failures)
             log_->error("{}", failure);
     }
 

@@ -80,6 +80,22 @@ TEST_F(FarmTest, WorkersHearFromACoordinatorThatComputes) {
         EXPECT_EQ(end, WorkerEnd::orderly);
 }
 
+/// So may copying it for a checkpoint, and writing it at the end.
+TEST_F(FarmTest, WorkersHearFromACoordinatorThatWrites) {
+    make_workers(2);
+    for (WorkerSettings& settings : settings_)
+        settings.silence_seconds = 1.0;
+    const auto write = [] { std::this_thread::sleep_for(std::chrono::milliseconds(2500)); };
+    hooks_.on_state = [&](const RenderState& state) {
+        if (state.reports.size() == 1) write();
+    };
+    hooks_.on_last_state = [&](const RenderState&) { write(); };
+    expect_truth(render());
+    EXPECT_TRUE(orderly_);
+    for (const WorkerEnd end : ends_)
+        EXPECT_EQ(end, WorkerEnd::orderly);
+}
+
 TEST_F(FarmTest, WorkersLeaveWhenTheCoordinatorFallsSilent) {
     make_workers(1);
     settings_[0].silence_seconds = 0.05;

@@ -43,7 +43,7 @@ struct TreeSize {
 /// Name of the item that a process has in memory when it starts, and its bytes (bench/log/farm.md, "what do the
 /// processes of a render take").
 inline constexpr const char* kProgramMemory = "program";
-inline constexpr std::uint64_t kProgramBytes = std::uint64_t{36} << 20;
+inline constexpr std::uint64_t kProgramBytes = std::uint64_t{40} << 20;
 
 /// Bytes of pixels that a worker sends without waiting for its next update: many threads fill much memory in that time.
 inline constexpr std::size_t kBundleBytes = std::size_t{24} << 20;

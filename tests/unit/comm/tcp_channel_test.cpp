@@ -12,13 +12,15 @@
 #include "common/base/timer.h"
 #include "common/comm/in_process_channel.h"
 #include "common/comm/multi_channel.h"
+#include "tests/unit/comm/raw_connection.h"
 
 // A coordinator's door and guests over sockets of this machine. Time limits are by a clock of the test's own.
 
 namespace treefarm {
 namespace {
 
-constexpr std::uint64_t kBuild = 7;
+constexpr std::uint64_t kBuild = test::kGuestBuild;
+using test::RawConnection;
 constexpr int kFirst = 3;
 
 Payload payload(std::size_t count, int salt = 0) {
@@ -27,47 +29,6 @@ Payload payload(std::size_t count, int salt = 0) {
         bytes[k] = static_cast<std::uint8_t>(k * 31 + k / 251 + static_cast<std::size_t>(salt));
     return std::make_shared<const Bytes>(std::move(bytes));
 }
-
-/// A guest whose every byte the test decides on.
-class RawConnection {
-  public:
-    explicit RawConnection(const JoinTicket& ticket)
-        : handshake_(ticket, kBuild, draw_join_key()), socket_(connect_to(ticket.address, ticket.port, 5)) {}
-
-    void say(std::span<const std::uint8_t> bytes) {
-        ASSERT_EQ(::send(socket_.fd(), bytes.data(), bytes.size(), MSG_NOSIGNAL), ssize_t(bytes.size()));
-    }
-    void say_hello() { say(handshake_.hello()); }
-    /// Once the door has answered.
-    void take_answer() {
-        std::uint8_t bytes[200];
-        const ssize_t count = ::recv(socket_.fd(), bytes, sizeof bytes, 0);
-        ASSERT_GT(count, 0);
-        handshake_.take(std::span(bytes).first(std::size_t(count)));
-    }
-    Bytes frame(const Bytes& bytes) {
-        const FrameHead head = frame_head(handshake_.sending_key(), sequence_++, bytes, false);
-        Bytes all(head.begin(), head.end());
-        all.insert(all.end(), bytes.begin(), bytes.end());
-        return all;
-    }
-    bool has_answer() {
-        std::uint8_t byte;
-        return ::recv(socket_.fd(), &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 1;
-    }
-    /// Whether the other end has hung up.
-    bool is_cut_off() {
-        std::uint8_t byte;
-        return ::recv(socket_.fd(), &byte, 1, MSG_DONTWAIT) == 0 || (errno != EAGAIN && errno != EWOULDBLOCK);
-    }
-    bool is_welcome() const { return handshake_.is_welcome(); }
-    JoinRefusal refusal() const { return handshake_.refusal(); }
-
-  private:
-    GuestHandshake handshake_;
-    Socket socket_;
-    std::uint64_t sequence_ = 0;
-};
 
 class TcpChannelTest : public ::testing::Test {
   protected:

@@ -14,7 +14,6 @@
 #include "common/scene/uses/texture_mean.h"
 #include "tests/support/refusal.h"
 #include "tests/support/resolved.h"
-#include "tests/support/test_scenes.h"
 
 namespace treefarm {
 namespace {
@@ -301,35 +300,6 @@ TEST(Plan, TheFilmDoesNotGrowWithThePasses) {
     EXPECT_EQ(film(job).bytes, merged);
     job.budget.strict = true;
     EXPECT_EQ(film(job).bytes, merged - 7 * 112 * pixels);
-}
-
-/// Peak resident sizes in MiB of cornell-box with three ranks of one thread (bench/log/farm.md, "what do the processes
-/// of a render take").
-TEST(Plan, MemoryIsWhatProcessesTake) {
-    struct Measured {
-        int size;
-        std::uint32_t spp;
-        const char* aovs;
-        double worker, coordinator;
-    };
-    for (const Measured& m :
-         {Measured{512, 1, "", 57, 152}, Measured{512, 7, "", 72, 369}, Measured{512, 15, "", 78, 421},
-          Measured{1024, 1, "", 0, 428}, Measured{2048, 1, "", 73, 1801}, Measured{4096, 1, "", 0, 7168},
-          Measured{512, 3, "albedo,normal,depth,direct", 0, 445}}) {
-        Scene scene = test::cornell_box(1.0f, Vec3(0.0f));
-        scene.film.width = scene.film.height = m.size;
-        Job job;
-        job.budget.spp = m.spp;
-        job.output.aovs = m.aovs;
-        const MemoryPlan plan = expected_memory(scene, resolve(job, scene));
-        constexpr double kMiB = 1 << 20;
-        const double worker = static_cast<double>(plan.worker_bytes()) / kMiB;
-        const double coordinator = static_cast<double>(plan.coordinator_bytes()) / kMiB;
-        if (m.worker > 0) {
-            EXPECT_NEAR(worker / m.worker, 1, 0.2) << m.size << " " << m.spp;
-        }
-        EXPECT_NEAR(coordinator / m.coordinator, 1, 0.2) << m.size << " " << m.spp;
-    }
 }
 
 TEST(RefineSettings, ATreeIsTheLastWhereItsPassSaysSo) {
