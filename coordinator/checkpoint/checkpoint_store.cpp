@@ -85,11 +85,11 @@ std::set<std::string> film_names(const RenderState& state) {
     return names;
 }
 
-/// Films named by the candidate that is not chosen; they are kept as long as its file.
-std::set<std::string> films_of(const Candidate& candidate, const Job& job) {
+/// State of the candidate that is not chosen, without pixels; empty if its file is unusable.
+RenderState state_of(const Candidate& candidate, const Job& job) {
     if (!candidate.fault.empty() && !candidate.lacks_films) return {};
     try {
-        return film_names(decode_state(candidate.file, decode_origin(candidate.file).pixels, aov_requests(job)));
+        return decode_state(candidate.file, decode_origin(candidate.file).pixels, aov_requests(job));
     } catch (const FormatError&) {
         return {};
     }
@@ -133,7 +133,10 @@ LoadedCheckpoint load_candidate(const Candidate& candidate, const Candidate& oth
     read_films(candidate.path.parent_path(), loaded, allow_lost);
     loaded.generation = candidate.file.generation;
     loaded.slot = candidate.slot;
-    loaded.other_films = films_of(other, job);
+    const RenderState second = state_of(other, job);
+    loaded.other_films = film_names(second);
+    loaded.plans =
+        other.file.generation > loaded.generation && other.lacks_films ? second.plans() : loaded.state.plans();
     if (!other.fault.empty() && other.fault != "is missing" && !(allow_lost && other.lacks_films))
         loaded.warnings.push_back(other.path.string() + " " + other.fault + "; going on from " +
                                   candidate.path.filename().string() + ": " + std::to_string(loaded.state.spp()) +

@@ -25,6 +25,7 @@ struct LoadedCheckpoint {
     std::size_t slot = 0;      ///< file that it was read from: 0 for a, 1 for b
     CheckpointOrigin origin;
     RenderState state;
+    std::vector<PassPlan> plans;        ///< of its passes, and of those that a newer file without its films names
     std::set<std::string> other_films;  ///< films named by the other file
     std::set<std::string> lost_films;   ///< films whose file is missing or damaged: they have no pixels
     std::vector<std::string> warnings;  ///< damage of a newer checkpoint, if any

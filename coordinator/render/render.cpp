@@ -233,7 +233,7 @@ RenderState starting_state(const RenderRequest& request) {
 PassChooser passes_of(const RenderRequest& request) {
     if (!request.content.schedule.empty()) return listed_passes(request.content.schedule);
     return passes_of(request.content.plan.job,
-                     request.start.checkpoint ? request.start.checkpoint->state.plans() : std::vector<PassPlan>());
+                     request.start.checkpoint ? request.start.checkpoint->plans : std::vector<PassPlan>());
 }
 
 RenderOutcome render(const RenderRequest& request, const RenderObserver& observer) {

@@ -34,7 +34,7 @@ class SpecialFiles : public ::testing::Test {
   protected:
     fs::path folder_ = test::fresh_test_folder(), run_ = folder_ / "run";
 
-    void SetUp() override { ::alarm(60); }  // a test that hangs must end
+    void SetUp() override { ::alarm(300); }  // a test that hangs must end
     void TearDown() override { ::alarm(0); }
 
     RenderRequest request(std::uint32_t spp = 7) const {
