@@ -312,11 +312,11 @@ TEST(SceneCodec, IndicesAreChecked) {
     refused([](Scene& s) { s.materials[7].back = 7; });
     refused([](Scene& s) { s.materials[7].twosided = false; });
     refused([](Scene& s) { std::get<BlendMaterial>(s.materials[5].bsdf).second = 5; });
-    refused([](Scene& s) { std::get<BlendMaterial>(s.materials[5].bsdf).weight.texture = 5; });
+    refused([](Scene& s) { std::get<BlendMaterial>(s.materials[5].bsdf).weight.texture = 7; });
     refused([](Scene& s) { std::get<DiffuseMaterial>(s.materials[0].bsdf).reflectance.texture = -2; });
-    refused([](Scene& s) { s.materials[4].detail.bump = 5; });
-    refused([](Scene& s) { s.materials[4].detail.normal_map = 5; });
-    refused([](Scene& s) { s.materials[4].opacity.texture = 5; });
+    refused([](Scene& s) { s.materials[4].detail.bump = 7; });
+    refused([](Scene& s) { s.materials[4].detail.normal_map = 7; });
+    refused([](Scene& s) { s.materials[4].opacity.texture = 7; });
     refused([](Scene& s) { std::get<BitmapTexture>(s.textures[0].kind).image = 3; });
     refused([](Scene& s) { std::get<BitmapTexture>(s.textures[0].kind).image = kNone; });
     refused([](Scene& s) { std::get<BitmapTexture>(s.textures[0].kind).wrap_u = static_cast<Wrap>(5); });
@@ -327,8 +327,8 @@ TEST(SceneCodec, IndicesAreChecked) {
     refused([](Scene& s) { std::get<EnvironmentEmitter>(s.emitters[5].kind).image = 2; });
     refused([](Scene& s) { std::get<EnvironmentEmitter>(s.emitters[5].kind).image = 3; });
     refused([](Scene& s) { s.emitters.push_back({ConstantEmitter{}, {}}); });
-    refused([](Scene& s) { std::get<AreaEmitter>(s.emitters[0].kind).radiance.texture = 5; });
-    refused([](Scene& s) { std::get<SpotEmitter>(s.emitters[3].kind).texture = 5; });
+    refused([](Scene& s) { std::get<AreaEmitter>(s.emitters[0].kind).radiance.texture = 7; });
+    refused([](Scene& s) { std::get<SpotEmitter>(s.emitters[3].kind).texture = 7; });
     refused([](Scene& s) { std::get<AreaEmitter>(s.emitters[0].kind).shape = 1; });
     refused([](Scene& s) { std::get<AreaEmitter>(s.emitters[0].kind).shape = kNone; });
     refused([](Scene& s) { s.film.width = 0; });

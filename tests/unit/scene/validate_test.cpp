@@ -109,7 +109,7 @@ TEST(ValidateKinds, AttributesOfTrianglesWithoutAreaGoWithThem) {
 
 TEST(ValidateKinds, Materials) {
     expect_refused("a.xml:1:7: ", [](Scene& s) { bsdf<DiffuseMaterial>(s, 0).reflectance.value.x = -1.0f; });
-    expect_refused("texture that does not", [](Scene& s) { bsdf<DiffuseMaterial>(s, 0).reflectance.texture = 5; });
+    expect_refused("texture that does not", [](Scene& s) { bsdf<DiffuseMaterial>(s, 0).reflectance.texture = 7; });
     expect_refused("a.xml:2:7: ", [](Scene& s) { bsdf<ConductorMaterial>(s, 1).k.y = -1.0f; });
     expect_refused("a.xml:2:7: ", [](Scene& s) { bsdf<ConductorMaterial>(s, 1).eta.y = kInf; });
     expect_refused("alpha", [](Scene& s) { bsdf<ConductorMaterial>(s, 1).roughness.alpha_u.value = 0.0f; });
@@ -133,7 +133,7 @@ TEST(ValidateKinds, Materials) {
     });
     expect_refused("opacity", [](Scene& s) { s.materials[0].opacity = 1.01f; });
     expect_refused("bump", [](Scene& s) { s.materials[4].detail.bump_scale = kNan; });
-    expect_refused("does not exist", [](Scene& s) { s.materials[4].detail.bump = 5; });
+    expect_refused("does not exist", [](Scene& s) { s.materials[4].detail.bump = 7; });
     expect_refused("normal map", [](Scene& s) { s.materials[4].detail.normal_scale.x = kNan; });
     expect_accepted(0, [](Scene& s) { s.materials[4].detail.normal_map = 1; });
     expect_refused("negative", [](Scene& s) { std::get<CheckerboardTexture>(s.textures[1].kind).color0.x = -0.5f; });
@@ -201,7 +201,7 @@ TEST(ValidateKinds, GroupsAndInstances) {
 }
 
 TEST(ValidateKinds, Emitters) {
-    expect_refused("b.xml:5:6: ", [](Scene& s) { kind<AreaEmitter>(s, 0).radiance.texture = 5; });
+    expect_refused("b.xml:5:6: ", [](Scene& s) { kind<AreaEmitter>(s, 0).radiance.texture = 7; });
     expect_refused("intensity", [](Scene& s) { kind<PointEmitter>(s, 2).intensity.x = -1.0f; });
     expect_refused("position", [](Scene& s) { kind<PointEmitter>(s, 2).position.x = 1e19f; });
     expect_refused("direction", [](Scene& s) { kind<SpotEmitter>(s, 3).axis = Vec3(0.0f); });
@@ -210,7 +210,7 @@ TEST(ValidateKinds, Emitters) {
     expect_refused("beam", [](Scene& s) { kind<SpotEmitter>(s, 3).beam = 0.6f; });
     expect_refused("beam", [](Scene& s) { kind<SpotEmitter>(s, 3).beam = kNan; });
     expect_refused("below 90 degrees", [](Scene& s) { kind<SpotEmitter>(s, 3).cutoff = 1.6f; });
-    expect_refused("does not exist", [](Scene& s) { kind<SpotEmitter>(s, 3).texture = 5; });
+    expect_refused("does not exist", [](Scene& s) { kind<SpotEmitter>(s, 3).texture = 7; });
     expect_refused("direction", [](Scene& s) { kind<SpotEmitter>(s, 3).x_axis = Vec3(0.0f); });
     expect_refused("direction", [](Scene& s) { kind<DirectionalEmitter>(s, 4).direction = Vec3(2, 0, 0); });
     expect_refused("irradiance", [](Scene& s) { kind<DirectionalEmitter>(s, 4).irradiance.z = kInf; });
@@ -225,7 +225,7 @@ TEST(ValidateKinds, Emitters) {
     expect_refused("field of view", [](Scene& s) { kind<ProjectorEmitter>(s, 6).half_width = 0.0f; });
     expect_refused("field of view", [](Scene& s) { kind<ProjectorEmitter>(s, 6).half_height = kInf; });
     expect_refused("irradiance", [](Scene& s) { kind<ProjectorEmitter>(s, 6).irradiance.value.y = -1.0f; });
-    expect_refused("does not exist", [](Scene& s) { kind<ProjectorEmitter>(s, 6).irradiance.texture = 5; });
+    expect_refused("does not exist", [](Scene& s) { kind<ProjectorEmitter>(s, 6).irradiance.texture = 7; });
     expect_refused("second environment", [](Scene& s) { s.emitters.push_back({ConstantEmitter{}, {}}); });
     expect_refused("not its shape's", [](Scene& s) { s.emitters.push_back({AreaEmitter{Rgb(1.0f), 1}, {}}); });
 }

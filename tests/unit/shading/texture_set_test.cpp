@@ -244,10 +244,10 @@ TEST(TextureSet, GridsHaveLinesAtWholeCoordinates) {
     GridTexture grid{Rgb(0.2f), Rgb(0.4f), 0.05f, {Vec3(10, 0, 0), Vec3(0, 1, 0)}};
     const TextureSet set({{grid, "", {}}}, {});
     for (const float u : {0.05f, -0.05f, 0.55f})
-        EXPECT_EQ(set.value(0, TexturePoint(u, 0.5f)), 0.2f) << u;
+        EXPECT_FLOAT_EQ(set.value(0, TexturePoint(u, 0.5f)), 0.2f) << u;
     for (const float u : {0.0f, 0.004f, 0.096f, -0.3f, 7.1f})
-        EXPECT_EQ(set.value(0, TexturePoint(u, 0.5f)), 0.4f) << u;
-    EXPECT_EQ(set.value(0, TexturePoint(0.05f, 2.96f)), 0.4f);
+        EXPECT_FLOAT_EQ(set.value(0, TexturePoint(u, 0.5f)), 0.4f) << u;
+    EXPECT_FLOAT_EQ(set.value(0, TexturePoint(0.05f, 2.96f)), 0.4f);
 }
 
 TEST(TextureSet, WiresFollowTheEdgesOfTriangles) {
