@@ -29,8 +29,8 @@ build() {
 }
 
 # tell_build PRESET TARGET: what building the target takes, before it starts; of a build that is configured. It counts the files that Ninja
-# would make and that are not there: a dry run of Ninja lists CMake's own step alone. A step takes a core some 5.4 seconds
-# (bench/build_cost measures it), less where ccache has its result.
+# would make and that are not there: a dry run of Ninja lists CMake's own step alone. Where thirty files are compiled as one, a step takes
+# a core some 11 seconds (bench/build_cost measures it), less where ccache has its result.
 tell_build() {
     local folder="$root/build/$1" steps=0 cores file
     cores="$(nproc)"
@@ -40,7 +40,7 @@ tell_build() {
     if ((steps == 0)); then
         echo "deploy/$(basename "$0"): the program is there; what has changed is built again"
     else
-        echo "deploy/$(basename "$0"): to build: $steps steps, about $((steps * 27 / 5 / cores / 60 + 1)) min on $cores cores" \
+        echo "deploy/$(basename "$0"): to build: $steps steps, about $((steps * 11 / cores / 60 + 1)) min on $cores cores" \
             "that do nothing else"
     fi
 }
