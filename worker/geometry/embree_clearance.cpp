@@ -9,23 +9,20 @@
 #include "worker/geometry/primitive_reach.h"
 
 namespace treefarm {
-namespace {
 
 using Imath::V3d;
 
-/// Query about a point's neighbourhood: whether a primitive reaches into the ball.
-struct Ball {
-    V3d centre;
-    double radius;
-    const Hit* own = nullptr;  ///< primitive to ignore, with all that stay below its plane
-    V3d normal{0.0};           ///< normal of that plane, on the upper side
-    double lowest = 0;         ///< least dot(x, normal) of points that are above the plane beyond rounding error
-};
-
-}  // namespace
-
 /// A neighbourhood query and its answer, for Embree's callback.
 struct EmbreeScene::Surroundings {
+    /// Query about a point's neighbourhood: whether a primitive reaches into the ball.
+    struct Ball {
+        V3d centre;
+        double radius;
+        const Hit* own = nullptr;  ///< primitive to ignore, with all that stay below its plane
+        V3d normal{0.0};           ///< normal of that plane, on the upper side
+        double lowest = 0;         ///< least dot(x, normal) of points that are above the plane beyond rounding error
+    };
+
     const EmbreeScene& scene;
     const Ball& ball;
     bool crowded = false;

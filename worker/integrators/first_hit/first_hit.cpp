@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/film/radiance_limit.h"
 #include "worker/integrators/sample_loop.h"
 #include "worker/integrators/subpath/surface_light.h"
 
