@@ -104,7 +104,7 @@ TEST_F(Leaving, TheLastOneEndsTheRenderWhichCanBeGoneOnWith) {
 }
 
 /// As by SIGSTOP, or on a laptop that slept: its workers leave after 30 s of silence.
-TEST_F(Leave, AfterALongSilenceOfTheCoordinatorThatIsToldAsTheReason) {
+TEST_F(Leaving, AfterALongSilenceOfTheCoordinatorThatIsToldAsTheReason) {
     make_workers(1);
     tell_at_result(0, 3);
     hooks_.on_progress = [this](const RenderProgress&) {

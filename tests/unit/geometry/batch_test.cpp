@@ -94,7 +94,7 @@ EmbreeScene cloud() {
         add_shape(scene, instance, kNone);
         opacity.emplace_back(1.0f);
     }
-    return EmbreeScene(std::move(scene.shapes), "avx2", {opacity, nullptr});
+    return EmbreeScene(std::move(scene.shapes), "avx2", {opacity, {}, nullptr});
 }
 
 /// The other shadow rays of a packet must not decide what a ray hits.

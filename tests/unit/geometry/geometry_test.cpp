@@ -257,7 +257,7 @@ TEST(Geometry, WhatARayHitsDoesNotDependOnOtherRays) {
         const std::vector<Vec3>& corners = std::get<Mesh>(scene.shapes[0].geometry).positions;
         std::vector<FloatInput> opacity(scene.shapes.size(), FloatInput(1.0f));
         opacity[kMasked] = FloatInput(0.5f);
-        const EmbreeScene geometry(scene.shapes, isa, {opacity, nullptr});
+        const EmbreeScene geometry(scene.shapes, isa, {opacity, {}, nullptr});
         std::mt19937 random(5);
         std::normal_distribution<float> normal;
         std::uint32_t met = 0;

@@ -98,7 +98,7 @@ TEST(Masks, WorkUnderInstances) {
     further.to_world.translate(Vec3(0, 0, 5));
     add_shape(scene, further, kNone);
     const FloatInput opacity(0.3f), opaque(1.0f);
-    const EmbreeScene geometry(scene.shapes, "avx2", {{opacity, opacity, opaque, opaque}, nullptr});
+    const EmbreeScene geometry(scene.shapes, "avx2", {{opacity, opacity, opaque, opaque}, {}, nullptr});
     std::mt19937 random(2);
     std::uniform_real_distribution<float> uniform(-0.4f, 0.4f);
     int met[4] = {0, 0, 0, 0}, passed = 0;
@@ -149,9 +149,10 @@ TEST(Masks, OpacitiesBeyondTheirRangeAreBounded) {
 }
 
 TEST(Masks, TexturesMustBeThere) {
-    EXPECT_THROW(EmbreeScene(Layers::shapes({layer(1)}), "avx2", {{FloatInput(1.0f, 0), FloatInput(1.0f)}, nullptr}),
-                 RunError);
-    EXPECT_THROW(EmbreeScene(Layers::shapes({layer(1)}), "avx2", {{FloatInput(0.5f)}, nullptr}), RunError);
+    EXPECT_THROW(
+        EmbreeScene(Layers::shapes({layer(1)}), "avx2", {{FloatInput(1.0f, 0), FloatInput(1.0f)}, {}, nullptr}),
+        RunError);
+    EXPECT_THROW(EmbreeScene(Layers::shapes({layer(1)}), "avx2", {{FloatInput(0.5f)}, {}, nullptr}), RunError);
 }
 
 }  // namespace

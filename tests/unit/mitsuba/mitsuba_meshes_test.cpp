@@ -7,9 +7,9 @@ namespace {
 
 using namespace treefarm::test;
 
-const std::string kMirror = "<transform name=\"toWorld\"><scale x=\"-1\"/></transform>";
-const std::string kFlip = "<boolean name=\"flipNormals\" value=\"true\"/>";
-const std::string kFaces = "<boolean name=\"faceNormals\" value=\"true\"/>";
+const std::string kMirrored = "<transform name=\"toWorld\"><scale x=\"-1\"/></transform>";
+const std::string kFlipped = "<boolean name=\"flipNormals\" value=\"true\"/>";
+const std::string kFaceNormals = "<boolean name=\"faceNormals\" value=\"true\"/>";
 
 /// Shapes that read meshes from files.
 class MitsubaMeshes : public MitsubaFixture {
@@ -67,15 +67,15 @@ std::string ascii_ply(const Mesh& mesh) {
 TEST_F(MitsubaMeshes, PlyFrontByVersion) {
     write("m.ply", ascii_ply(triangle(false)));
     expect_near(triangle_normal(mesh("ply", ""), 0), Vec3(0, 0, 1));
-    expect_near(triangle_normal(mesh("ply", kFlip), 0), Vec3(0, 0, -1));
-    expect_near(triangle_normal(mesh("ply", kMirror), 0), Vec3(0, 0, -1));
-    expect_near(triangle_normal(mesh("ply", kMirror, "3.0.0"), 0), Vec3(0, 0, 1));
+    expect_near(triangle_normal(mesh("ply", kFlipped), 0), Vec3(0, 0, -1));
+    expect_near(triangle_normal(mesh("ply", kMirrored), 0), Vec3(0, 0, -1));
+    expect_near(triangle_normal(mesh("ply", kMirrored, "3.0.0"), 0), Vec3(0, 0, 1));
     write("m.ply", ascii_ply(triangle(true)));
     for (const char* version : {"0.6.0", "3.0.0"}) {
         expect_near(triangle_normal(mesh("ply", "", version), 0), Vec3(0, 0, -1));
-        expect_near(triangle_normal(mesh("ply", kMirror, version), 0), Vec3(0, 0, -1));
-        expect_near(triangle_normal(mesh("ply", kFlip, version), 0), Vec3(0, 0, 1));
-        expect_near(triangle_normal(mesh("ply", kFaces, version), 0), Vec3(0, 0, 1));
+        expect_near(triangle_normal(mesh("ply", kMirrored, version), 0), Vec3(0, 0, -1));
+        expect_near(triangle_normal(mesh("ply", kFlipped, version), 0), Vec3(0, 0, 1));
+        expect_near(triangle_normal(mesh("ply", kFaceNormals, version), 0), Vec3(0, 0, 1));
     }
 }
 
@@ -89,8 +89,9 @@ TEST_F(MitsubaMeshes, SerializedKeepsItsFrontUnderMirrors) {
     write("m.serialized", serialized_file({serialized_payload(triangle(false), 4, false)}, 4));
     for (const char* version : {"0.6.0", "3.0.0"}) {
         expect_near(triangle_normal(mesh("serialized", "", version), 0), Vec3(0, 0, 1));
-        expect_near(triangle_normal(mesh("serialized", kMirror, version), 0), Vec3(0, 0, 1));
-        expect_near(triangle_normal(mesh("serialized", kMirror + kFaces + kFlip, version), 0), Vec3(0, 0, -1));
+        expect_near(triangle_normal(mesh("serialized", kMirrored, version), 0), Vec3(0, 0, 1));
+        expect_near(triangle_normal(mesh("serialized", kMirrored + kFaceNormals + kFlipped, version), 0),
+                    Vec3(0, 0, -1));
     }
 }
 
@@ -121,7 +122,7 @@ TEST_F(MitsubaMeshes, MaxSmoothAngleKeepsSharpEdges) {
     for (const Vec3& normal : smooth.normals)
         most = std::max(most, normal.z);
     EXPECT_NEAR(most, 1.0f, 1e-5f) << "the ridge is smooth";
-    EXPECT_THROW(mesh("obj", kFaces + "<float name=\"maxSmoothAngle\" value=\"30\"/>"), InputError);
+    EXPECT_THROW(mesh("obj", kFaceNormals + "<float name=\"maxSmoothAngle\" value=\"30\"/>"), InputError);
     EXPECT_THROW(mesh("obj", "<float name=\"max_smooth_angle\" value=\"30\"/>", "3.0.0"), InputError);
 }
 

@@ -39,7 +39,7 @@ PassRow pass_row(double seconds, double error, double core_seconds = 1) {
     return row;
 }
 
-CellResult cell(const std::string& method, std::size_t repetition, std::vector<PassRow> passes) {
+CellResult table_cell(const std::string& method, std::size_t repetition, std::vector<PassRow> passes) {
     CellResult result;
     result.scene = "room";
     result.method = method;
@@ -63,10 +63,11 @@ TEST(EffectCosts, AreOfMethodsThatDifferByOneSwitch) {
          {"no bump", {{"guiding.type", "ppg"}, {"effects.bump", "false"}}},
          {"unguided, no bump", {{"guiding.type", "none"}, {"effects.bump", "false"}}},
          {"no bump or masks", {{"guiding.type", "ppg"}, {"effects.bump", "false"}, {"effects.masks", "false"}}}},
-        {cell("all", 0, {pass_row(1, 0.1, 3)}), cell("all", 1, {pass_row(1, 0.1, 6)}),
-         cell("no bump", 0, {pass_row(1, 0.1, 2)}), cell("no bump", 1, {pass_row(1, 0.1, 4)}),
-         cell("unguided, no bump", 0, {pass_row(1, 0.1, 1)}), cell("no bump or masks", 0, {pass_row(1, 0.1, 1)}),
-         cell("no bump or masks", 1, {pass_row(1, 0.1, 2)})});
+        {table_cell("all", 0, {pass_row(1, 0.1, 3)}), table_cell("all", 1, {pass_row(1, 0.1, 6)}),
+         table_cell("no bump", 0, {pass_row(1, 0.1, 2)}), table_cell("no bump", 1, {pass_row(1, 0.1, 4)}),
+         table_cell("unguided, no bump", 0, {pass_row(1, 0.1, 1)}),
+         table_cell("no bump or masks", 0, {pass_row(1, 0.1, 1)}),
+         table_cell("no bump or masks", 1, {pass_row(1, 0.1, 2)})});
     const std::vector<EffectCost> costs = effect_costs(results, results.scenes[0]);
     ASSERT_EQ(costs.size(), 2u);
     EXPECT_EQ(costs[0].effect, "bump");
@@ -80,8 +81,9 @@ TEST(EffectCosts, AreOfMethodsThatDifferByOneSwitch) {
 }
 
 TEST(EffectCosts, StandInThePlan) {
-    StudyResults results = study_of({{"all", {}}, {"no bump", {{"effects.bump", "false"}}}},
-                                    {cell("all", 0, {pass_row(1, 0.1, 3)}), cell("no bump", 0, {pass_row(1, 0.1, 2)})});
+    StudyResults results =
+        study_of({{"all", {}}, {"no bump", {{"effects.bump", "false"}}}},
+                 {table_cell("all", 0, {pass_row(1, 0.1, 3)}), table_cell("no bump", 0, {pass_row(1, 0.1, 2)})});
     for (CellResult& one : results.cells) {
         one.folder = fresh_folder("plan");
         std::ofstream(one.folder / "plan.json")
@@ -107,7 +109,7 @@ TEST(Predictions, AreHeldAgainstWhatCame) {
     passes[2].estimate = 0.2;             // wrong, and so is its interval
     passes[2].estimate_low = 0.18;
     passes[2].estimate_high = 0.22;
-    const CellResult one = cell("all", 0, passes);
+    const CellResult one = table_cell("all", 0, passes);
     const Predictions p = predictions_of({&one});
     EXPECT_EQ(p.intervals, 3);
     EXPECT_EQ(p.covered, 2);
@@ -128,8 +130,8 @@ const char* const kBench = R"({"context": {}, "benchmarks": [
     {"run_name": "sums/exact", "run_type": "aggregate", "aggregate_name": "cv", "items_per_second": 7e8, "order_changes": NaN}]})";
 
 TEST(TreePictures, OfTheFirstCellThatWasInspectedStandInThePage) {
-    StudyResults results =
-        study_of({{"ppg", {}}, {"none", {}}}, {cell("ppg", 0, {}), cell("ppg", 1, {}), cell("none", 0, {})});
+    StudyResults results = study_of({{"ppg", {}}, {"none", {}}},
+                                    {table_cell("ppg", 0, {}), table_cell("ppg", 1, {}), table_cell("none", 0, {})});
     for (CellResult& one : results.cells)
         one.folder = fresh_folder("trees");
     EXPECT_EQ(tree_pictures(results, results.scenes[0]), "") << "nothing was inspected";
@@ -163,7 +165,7 @@ TEST(BenchTable, PairsRepetitions) {
     EXPECT_NE(table.find("| sums | exact | 1.4 |  | order changes: 0 |"), std::string::npos) << table;
     EXPECT_NE(table.find("| sums | floats | 0.7 | 0.50 [0.50, 0.50] | order changes: 0.5 |"), std::string::npos)
         << table;
-    const StudyResults study = study_of({{"all", {}}}, {cell("all", 0, {pass_row(1, 0.1)})});
+    const StudyResults study = study_of({{"all", {}}}, {table_cell("all", 0, {pass_row(1, 0.1)})});
     EXPECT_NE(price_list({study}, choices).find("## Exactness"), std::string::npos);
     EXPECT_EQ(price_list({study}, {}).find("## Exactness"), std::string::npos);
     BenchChoice materials = choices[0];
@@ -174,7 +176,7 @@ TEST(BenchTable, PairsRepetitions) {
 }
 
 TEST(PriceList, NamesStudyAndScene) {  // two studies may have one scene
-    StudyResults study = study_of({{"all", {}}}, {cell("all", 0, {pass_row(1, 0.1)})});
+    StudyResults study = study_of({{"all", {}}}, {table_cell("all", 0, {pass_row(1, 0.1)})});
     study.study = "configs/studies/choices.toml";
     const std::string list = price_list({study}, {});
     EXPECT_NE(list.find("\n## choices: room\n"), std::string::npos) << list;
