@@ -152,7 +152,8 @@ FileJson launch_of(const ConfinedFolder& root, const std::string& path) {
 /// Whether a line of a log is one that the terminal shows, too: neither its name nor its text holds the level.
 bool is_for_all(std::string_view line) {
     const std::size_t level = line.find(": ");
-    return level == std::string_view::npos || !line.substr(0, level + 2).ends_with(kDetail);
+    const bool dated = !line.empty() && line[0] >= '0' && line[0] <= '9';
+    return level == std::string_view::npos || !dated || !line.substr(0, level + 2).ends_with(kDetail);
 }
 
 /// Last lines of a log, without those for experts, safe to print.

@@ -10,7 +10,7 @@
 #include <mutex>
 #include <utility>
 
-#include "common/base/files/regular_file.h"
+#include "common/base/regular_file.h"
 #include "common/base/text/printable.h"
 
 namespace treefarm {

@@ -8,7 +8,7 @@
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/read_bytes.h"
-#include "common/base/files/regular_file.h"
+#include "common/base/regular_file.h"
 #include "common/base/text/parse_text.h"
 #include "common/config/aov_list.h"
 #include "common/plan/resolve/resolved_file.h"

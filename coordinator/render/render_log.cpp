@@ -103,7 +103,7 @@ void RenderLog::tell_if_black(const CombinedImage& image, std::uint32_t spp) {
     const Estimator& estimator = estimator_of(request_.content.job.integrator.type);
     std::string why;
     if (causes.empty())
-        why = estimator.misses ? fmt::format("; by integrator.type = \"{}\" {}", estimator.type, estimator.misses)
+        why = estimator.misses ? fmt::format("; estimator \"{}\": {}", estimator.type, estimator.misses)
                                : "; the cause in the scene is not obvious: no path has hit a light";
     log_->warn("the image is black after {} spp{}", spp, why);
     for (const Finding& cause : causes)

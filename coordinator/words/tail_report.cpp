@@ -37,7 +37,7 @@ bool is_seen_directly(const LightOrigin& origin) {
 std::string main_origin(const TailSamples& samples) {
     std::map<std::string, double> noise;
     for (const TailSample& sample : samples.worst)
-        noise[words(sample.origin)] += static_cast<double>(sample.noise);
+        if (!is_seen_directly(sample.origin)) noise[words(sample.origin)] += static_cast<double>(sample.noise);
     const auto less = [](const auto& a, const auto& b) { return a.second < b.second; };
     const auto most = std::max_element(noise.begin(), noise.end(), less);
     return most == noise.end() ? "" : most->first;
@@ -49,12 +49,10 @@ TailReport tail_report(const CombinedImage& image, std::span<const PassReport> p
     TailReport report;
     if (image.longest_pass < 2) return report;
     report.share = noise_share(image.variance, kNoisePart);
+    report.worst = samples_of_image(image, passes);
     double seen = 0, others = 0;
-    for (const TailSample& sample : samples_of_image(image, passes).worst) {
-        const bool is_seen = is_seen_directly(sample.origin);
-        (is_seen ? seen : others) += static_cast<double>(sample.noise);
-        if (!is_seen) report.worst.add(sample);
-    }
+    for (const TailSample& sample : report.worst.worst)
+        (is_seen_directly(sample.origin) ? seen : others) += static_cast<double>(sample.noise);
     report.origin = main_origin(report.worst);
     report.stands_out =
         report.share && *report.share < kToldShare && others > seen && image.variance.size() >= kLeastPixels;
@@ -67,7 +65,9 @@ std::string tail_text(const TailReport& tails) {
 }
 
 std::string tail_command(const TailReport& tails, const std::string& debug_command, const std::string& debug_options) {
-    const TailSample& worst = tails.worst.worst.front();
+    const auto at = std::find_if(tails.worst.worst.begin(), tails.worst.worst.end(),
+                                 [](const TailSample& sample) { return !is_seen_directly(sample.origin); });
+    const TailSample& worst = at == tails.worst.worst.end() ? tails.worst.worst.front() : *at;
     return fmt::format("the worst firefly, pixel ({}, {}), vertex by vertex: {} {},{},{},{}{}", worst.x, worst.y,
                        debug_command, worst.pass + 1, worst.x, worst.y, worst.sample, debug_options);
 }

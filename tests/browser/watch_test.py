@@ -180,7 +180,7 @@ def look_at(browser, server, mpirun, folder):
     check(all(name.startswith(server.url()) for name in names), f"the page loads from elsewhere: {names}")
 
     os.kill(rank_process(mpirun, 2), signal.SIGKILL)
-    wait_for(lambda: any(row[1] == "lost" and row[4] == "1" for row in cell_texts(browser)), "the lost worker")
+    wait_for(lambda: any(row[1] == "lost" and row[5] == "1" for row in cell_texts(browser)), "the lost worker")
     check(any(row[1] == "present" for row in cell_texts(browser)), f"the other one: {cell_texts(browser)}")
     metrics = server.ask("/metrics")[2].decode()
     check(re.search(r'treefarm_worker_up\{run="run",worker="2",host="[^"]*"\} 0\n', metrics), "metrics do not tell of it")

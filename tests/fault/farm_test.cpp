@@ -34,8 +34,14 @@ TEST_F(FarmTest, AWorkerThatDiesIsReplaced) {
     std::atomic<bool> dead = false;
     renderers_[0] = renderers_[2] = make_patient(dead);
     int results = 0;
+    std::future<void> noticed;  // copies by the others would end the render before its silence has been noticed
     faulty_[1]->outgoing = [&](Bytes& bytes) {
-        if (is<Result>(bytes) && ++results == 1) faulty_[1]->cut = dead = true;
+        if (!is<Result>(bytes) || ++results != 1) return true;
+        faulty_[1]->cut = true;
+        noticed = std::async(std::launch::async, [&] {
+            std::this_thread::sleep_for(std::chrono::duration<double>(2 * kShort.lost));
+            dead = true;
+        });
         return true;
     };
     expect_truth(render(kShort));

@@ -107,7 +107,7 @@ TEST_F(HostileScene, TextThatGrows) {
     for (int i = 1; i < 30; ++i)
         laughs +=
             "<!ENTITY a" + std::to_string(i) + " \"&a" + std::to_string(i - 1) + ";&a" + std::to_string(i - 1) + ";\">";
-    laughs += "]>\n<scene version=\"0.6.0\"><string name=\"x\" value=\"&a29;\"/></scene>";
+    laughs += "]>\n<scene version=\"3.0.0\"><string name=\"x\" value=\"&a29;\"/></scene>";
     EXPECT_THROW(load_scene(write("laughs.xml", laughs)), InputError);
     // Definitions that name each other.
     std::string defaults;

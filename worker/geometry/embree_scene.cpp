@@ -32,6 +32,13 @@ void EmbreeScene::intersect_packet(std::span<const Query> queries) const {
         for (std::size_t i = 0; i < queries.size(); ++i)
             packet.ray.id[i] = queries[i].ray->of_camera ? kCameraRay : 0;
     std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
+    if (queries.size() < kPacket) {
+        // Embree may look at lanes without a ray, whatever `valid` says: they are numbers, and end before they begin.
+        for (float* const lanes : {packet.ray.org_x, packet.ray.org_y, packet.ray.org_z, packet.ray.dir_x,
+                                   packet.ray.dir_y, packet.ray.dir_z})
+            std::fill_n(lanes, kPacket, 0.0f);
+        std::fill_n(packet.ray.tfar, kPacket, -1.0f);
+    }
     for (std::size_t i = 0; i < queries.size(); ++i) {
         const Ray& ray = *queries[i].ray;
         valid[i] = -1;

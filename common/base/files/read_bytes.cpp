@@ -4,7 +4,7 @@
 #include <cerrno>
 
 #include "common/base/error.h"
-#include "common/base/files/regular_file.h"
+#include "common/base/regular_file.h"
 
 namespace treefarm {
 

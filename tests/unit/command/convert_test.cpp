@@ -84,8 +84,8 @@ class Convert : public test::FolderTest {
 };
 
 TEST_F(Convert, ColoursGoThroughExposureAndToneMap) {
-    EXPECT_EQ(picture(""), (std::vector<int>{137, 137, 137, 255, 0, 0}));  // sRGB of 0.25
-    EXPECT_EQ(picture("--exposure 1")[0], 188);                            // of 0.5
+    EXPECT_EQ(picture(""), (std::vector<int>{137, 137, 137, 255, 255, 0, 0, 128}));  // sRGB of 0.25; alpha as stored
+    EXPECT_EQ(picture("--exposure 1")[0], 188);                                      // of 0.5
     EXPECT_EQ(picture("--exposure -3")[3], 255);
     EXPECT_EQ(picture("--tonemap reinhard")[0], 124);  // of 0.2
     EXPECT_GT(picture("--tonemap aces")[0], 137);

@@ -264,7 +264,9 @@ TEST(TailReport, WhatTheCameraSeesDirectlyIsNoFirefly) {
     lamp.passes[2].stats.tails.add({5.0f, 2, 132, 25, 7, {LightFound::met, PathClass::diffuse, 1}});
     const TailReport mostly_lamp = tail_report(lamp.image, lamp.passes);
     EXPECT_FALSE(mostly_lamp.stands_out) << "most noise is that of a lamp's edge";
-    EXPECT_EQ(mostly_lamp.worst.worst.size(), 2u);
+    ASSERT_EQ(mostly_lamp.worst.worst.size(), 3u);
+    EXPECT_EQ(mostly_lamp.worst.worst[0].x, 132) << "the worst of all is the same for every split into tiles";
+    EXPECT_NE(tail_command(mostly_lamp, "", "").find("pixel (120, 44)"), std::string::npos);
     EXPECT_EQ(mostly_lamp.origin, "light through rough glass, met by chance");
     Tailed sky(10000);
     sky.passes[2].stats.tails.add({0.5f, 2, 132, 25, 7, {LightFound::sky_met, PathClass::diffuse, 1}});

@@ -18,7 +18,7 @@
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/read_bytes.h"
-#include "common/base/files/regular_file.h"
+#include "common/base/regular_file.h"
 #include "tests/support/refusal.h"
 #include "tests/support/test_folder.h"
 

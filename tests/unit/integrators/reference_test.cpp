@@ -63,7 +63,9 @@ TEST_P(OwnScenes, TheReferenceIsTheUnguidedWalk) {
         job.integrator.mis = mis;
         expect_same_bits(loaded.scene, job, GetParam());
     }
-    job.integrator.strict_normals = job.integrator.hide_emitters = job.farm.robust = true;
+    job.integrator.strict_normals = job.farm.robust = true;
+    // A camera inside a hidden furnace would see nothing.
+    job.integrator.hide_emitters = std::string(GetParam()) != "white-furnace";
     job.integrator.max_depth = 4;
     job.integrator.rr_depth = 2;
     expect_same_bits(loaded.scene, job, GetParam());

@@ -77,8 +77,9 @@ TEST_F(MitsubaBsdfModels, DiffuseAndSpecularPartsThatAddUpToMoreThanOneAreScaled
     const auto& phong = std::get<PhongMaterial>(loaded.scene.materials.at(0).bsdf);
     EXPECT_FLOAT_EQ(phong.diffuse_reflectance.value.x, 0.5f);
     EXPECT_FLOAT_EQ(phong.specular_reflectance.value.y, 0.0625f);
-    ASSERT_FALSE(loaded.warnings.empty());
-    EXPECT_NE(loaded.warnings[0].text().find("add up to 1.6"), std::string::npos) << loaded.warnings[0].text();
+    EXPECT_TRUE(std::any_of(loaded.warnings.begin(), loaded.warnings.end(), [](const auto& warning) {
+        return warning.text().find("add up to 1.6") != std::string::npos;
+    }));
 }
 
 TEST_F(MitsubaBsdfModels, Coatings) {

@@ -70,7 +70,7 @@ std::vector<Fault> faults() {
         {emitter("projector", value("float", "scale", "-1")), "3"},
         {shape(emitter("spot", ""))},
         {emitter("area", "")},
-        {emitter("collimated", "")},
+        {emitter("collimated", ""), "3"},
         {emitter("spott", "")},
         {emitter("constant", "") + "\n" + emitter("constant", "")},
         {emitter("sky", value("float", "turbidity", "0"))},
@@ -97,7 +97,7 @@ std::vector<Fault> faults() {
         {lens("thinlens", value("float", "apertureRadius", "1") + value("float", "focusDistance", "-1"))},
         {lens("fisheye", "")},
         {lens("perspectiv", "")},
-        {"<integrator type=\"path\"/>"},
+        {"<integrator type=\"path\"/>", "3"},
         // integrators
         {"<integrator type=\"foo\"/>"},
         {"<integrator type=\"pth\"/>"},

@@ -188,7 +188,9 @@ TEST(StoredRuns, OfAnEarlierVersionAreReadByTheirFormerNames) {
     std::vector<std::string> names = split(split(text_of(stored("render") / kPassesFile), '\n').front(), ',');
     for (std::string& name : names)
         name = std::string(current_name(name));
-    EXPECT_EQ(names, names_at(kInTable));
+    std::vector<std::string> known = names_at(kInTable);
+    std::erase(known, "busy_seconds");  // a later column
+    EXPECT_EQ(names, known);
 }
 
 TEST(StoredRuns, AreReportedListedAndKnownAsDone) {

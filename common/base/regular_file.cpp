@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/base/files/regular_file.h"
+#include "common/base/regular_file.h"
 
 #include <sys/stat.h>
 
