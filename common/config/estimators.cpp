@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "common/config/job.h"
 namespace treefarm {
 
 namespace {
@@ -59,6 +60,10 @@ const Estimator* find_estimator(std::string_view type) {
 const Estimator& estimator_of(std::string_view type) {
     const Estimator* const found = find_estimator(type);
     return found ? *found : kEstimators[0];
+}
+
+const Estimator& estimator_of(const Job& job) {
+    return estimator_of(job.integrator.type);
 }
 
 }  // namespace treefarm

@@ -7,6 +7,8 @@
 
 namespace treefarm {
 
+struct Job;
+
 /// End of the light transport at which an estimator's paths begin.
 enum class PathsFrom : std::uint8_t {
     camera,
@@ -40,5 +42,7 @@ const Estimator* find_estimator(std::string_view type);
 
 /// The estimator of this type; the default one for unknown types, which no worker renders.
 const Estimator& estimator_of(std::string_view type);
+/// Estimator of a job.
+const Estimator& estimator_of(const Job& job);
 
 }  // namespace treefarm

@@ -100,7 +100,7 @@ void RenderLog::tell_if_black(const CombinedImage& image, std::uint32_t spp) {
     if (reported_black_ || !std::all_of(image.mean.begin(), image.mean.end(), is_dark)) return;
     reported_black_ = true;
     const std::vector<Finding> causes = dark_causes(request_.content.scene);
-    const Estimator& estimator = estimator_of(request_.content.job.integrator.type);
+    const Estimator& estimator = estimator_of(request_.content.job);
     std::string why;
     if (causes.empty())
         why = estimator.misses ? fmt::format("; estimator \"{}\": {}", estimator.type, estimator.misses)
