@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "common/config/job.h"
+
 namespace treefarm {
 
 namespace {
