@@ -41,15 +41,28 @@ bool is_previous(const fs::path& path) {
            (name.starts_with(start) && parse_unsigned(std::string_view(name).substr(start.size())).has_value());
 }
 
-bool holds_nothing(const fs::path& folder) {
+/// Whether a render writes an entry of this name again and again.
+bool is_of_render_at_work(const std::string& name) {
+    for (const char* own : {kPreviewFile, kImageFile, kTreeFile, kCheckpointFolder})
+        if (name == own) return true;
+    return false;
+}
+
+/// Content of a folder without a render's status. A run directory that was removed while it was rendered may hold what the
+/// render wrote meanwhile, and nothing else.
+FolderContent content_without_status(const fs::path& folder) {
     const std::vector<fs::path> previous = previous_runs(folder);
+    FolderContent content = FolderContent::nothing;
     std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder, error))
-        if (entry.path().filename() != kLockFileName && entry.path().filename() != kLaunchFolder &&
-            !is_leftover(entry.path().filename().string()) &&
-            std::find(previous.begin(), previous.end(), entry.path()) == previous.end())
-            return false;
-    return true;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        const std::string name = entry.path().filename().string();
+        if (name == kLockFileName || name == kLaunchFolder || is_leftover(name) ||
+            std::find(previous.begin(), previous.end(), entry.path()) != previous.end())
+            continue;
+        if (!is_of_render_at_work(name)) return FolderContent::other;
+        content = FolderContent::render;
+    }
+    return content;
 }
 
 /// Whether a folder holds frames of a shot that were rendered one by one, as by a queue.
@@ -89,7 +102,7 @@ FolderContent folder_content(const fs::path& folder) {
     if (has(folder / kPassesFile) || !text_in(read_run_json(folder / kStatusFile), "state").empty())
         return FolderContent::render;
     if (holds_frames(folder)) return FolderContent::shot;
-    return holds_nothing(folder) ? FolderContent::nothing : FolderContent::other;
+    return content_without_status(folder);
 }
 
 std::string render_words(const fs::path& folder) {

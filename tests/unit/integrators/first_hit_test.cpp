@@ -231,7 +231,7 @@ TEST(FirstHit, NormalsAreThoseOfShadingAndAlbedosAreFlat) {
     Scene scene = tilted_wall();
     const auto expect_normal = [&](const Vec3& expected, const char* what) {
         const test::Layers image = render(scene, "normal,geometric_normal,albedo", 4);
-        for (const std::size_t p : {0, 27, 63}) {
+        for (const std::size_t p : {0u, 27u, 63u}) {
             EXPECT_LT((image.vector("normal", p) - expected).length(), 1e-5f) << what << image.vector("normal", p);
             EXPECT_LT((image.vector("geometric_normal", p) - flat).length(), 1e-6f) << what;
         }

@@ -100,6 +100,22 @@ TEST(RunFolder, StudiesAndOtherFilesAreNeverReplaced) {
     EXPECT_EQ(test::read_file(other / "job.toml"), "mine");
 }
 
+/// A run directory that is removed while it is rendered keeps what the render writes meanwhile.
+TEST(RunFolder, FilesOfARenderWithoutItsStatusAreThatRender) {
+    for (const char* left : {"preview.png", "image.exr", "tree.bin", "checkpoint/state"}) {
+        const fs::path folder = test::fresh_test_folder();
+        test::write_file(folder / left, "half");
+        EXPECT_EQ(folder_content(folder), FolderContent::render) << left;
+        EXPECT_NE(refusal(folder, false).find("holds a render (broken off, 0 spp)"), std::string::npos) << left;
+        EXPECT_EQ(refusal(folder, true), "") << left;
+        EXPECT_EQ(test::read_file(folder / "previous" / left), "half");
+    }
+    const fs::path folder = test::fresh_test_folder();
+    test::write_file(folder / "preview.png", "half");
+    test::write_file(folder / "mine", "mine");
+    EXPECT_EQ(folder_content(folder), FolderContent::other);
+}
+
 TEST(RunFolder, FramesThatWereRenderedOneByOneAreAShot) {
     const fs::path folder = test::fresh_test_folder();
     test::write_file(folder / "frame.0007.exr", "image");
