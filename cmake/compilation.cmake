@@ -17,7 +17,7 @@ set(TREEFARM_COLD_LEVEL "" CACHE STRING "level of cold files; empty: -O2, and -O
 # Modules whose speed matters stay as they are. The others, and every test, are cold.
 set(TREEFARM_HOT base film guiding image metrics textures geometry shading lights camera trace_scene integrators tools worker)
 list(TRANSFORM TREEFARM_HOT PREPEND tf_)
-set(TREEFARM_KERNELS tf_shading tf_trace_scene tf_integrators mpi_test)
+set(TREEFARM_KERNELS tf_shading tf_trace_scene tf_integrators)
 
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled.cpp CONTENT "// carries the precompiled headers\n")
 function(treefarm_precompiled NAME)

@@ -10,9 +10,7 @@
 namespace treefarm::test {
 namespace {
 
-constexpr double kPatience = 120;
-
-std::vector<std::string> render(const std::filesystem::path& folder, const std::vector<std::string>& options) {
+std::vector<std::string> render_within(const std::filesystem::path& folder, const std::vector<std::string>& options) {
     return std::vector<std::string>{TREEFARM_PROGRAM,
                                     "render",
                                     own_scene("cornell-box.xml"),
@@ -29,7 +27,7 @@ std::vector<std::string> render(const std::filesystem::path& folder, const std::
 
 nlohmann::json run(const std::vector<std::string>& launcher, const std::vector<std::string>& options, int code = 0) {
     const auto folder = fresh_folder("budget");
-    const Ending ending = Program(launcher + render(folder, options)).wait(kPatience);
+    const Ending ending = Program(launcher + render_within(folder, options)).wait(kSoon);
     EXPECT_EQ(ending.code, code) << ending.output;
     nlohmann::json summary = read_summary(folder);
     summary["folder"] = folder.string();
@@ -71,7 +69,7 @@ TEST(Schedule, ThatIsMalformedSaysWhere) {
     const auto folder = fresh_folder("schedule");
     const std::string file = (folder / "bad.toml").string();
     std::ofstream(file) << "[[pass]]\nspp = many\n";
-    const Ending ending = Program(render(folder / "run", {"--schedule", file})).wait(kPatience);
+    const Ending ending = Program(render_within(folder / "run", {"--schedule", file})).wait(kSoon);
     EXPECT_EQ(ending.code, 2);
     EXPECT_NE(ending.output.find("bad.toml:2:7: "), std::string::npos) << ending.output;
 }

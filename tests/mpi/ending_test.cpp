@@ -14,8 +14,6 @@
 namespace treefarm::test {
 namespace {
 
-constexpr double kSoon = 60;  ///< seconds; what is meant is "not never"
-
 std::vector<std::string> render(const std::string& scene, const std::filesystem::path& folder,
                                 const std::vector<std::string>& options = {}) {
     return std::vector<std::string>{TREEFARM_PROGRAM, "render", scene, "--run-dir", folder.string()} + options;
@@ -33,13 +31,6 @@ std::filesystem::path bad_scene() {
     return path;
 }
 
-int count(const std::string& text, const std::string& what) {
-    int found = 0;
-    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at)
-        ++found;
-    return found;
-}
-
 TEST(Ending, BadInputEndsWithCode2AndOneLine) {
     const auto scene = bad_scene();
     for (const int ranks : {0, 2, 4}) {
@@ -47,7 +38,7 @@ TEST(Ending, BadInputEndsWithCode2AndOneLine) {
         const Ending ending = Program(launcher + render(scene, fresh_folder("run"))).wait(kSoon);
         EXPECT_FALSE(ending.timed_out) << ending.output;
         EXPECT_EQ(ending.code, 2) << ranks << " ranks: " << ending.output;
-        EXPECT_EQ(count(ending.output, "treefarm: "), 1) << ending.output;
+        EXPECT_EQ(count(ending.output, "treefarm: "), 1u) << ending.output;
         EXPECT_NE(ending.output.find("bad.xml:"), std::string::npos) << ending.output;
     }
 }
@@ -67,7 +58,7 @@ TEST(Ending, BadUsageEndsWithCode2AndOneLine) {
                 Program(launcher + std::vector<std::string>{TREEFARM_PROGRAM} + arguments).wait(kSoon);
             EXPECT_FALSE(ending.timed_out) << ending.output;
             EXPECT_EQ(ending.code, 2) << ending.output;
-            EXPECT_EQ(count(ending.output, "treefarm: "), 1) << ending.output;
+            EXPECT_EQ(count(ending.output, "treefarm: "), 1u) << ending.output;
         }
 }
 

@@ -18,10 +18,6 @@
 namespace treefarm::test {
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr double kSoon = 180;  ///< seconds; what is meant is "not never"
-
 #ifdef NDEBUG
 const std::string kSpp = "1016";  // some seconds
 #else
@@ -55,13 +51,6 @@ int workers_in(const fs::path& folder) {
     std::ifstream file(folder / "status.json");
     const nlohmann::json status = nlohmann::json::parse(file, nullptr, false);
     return status.is_object() ? status.value("workers", 0) : 0;
-}
-
-int count(const std::string& text, const std::string& what) {
-    int found = 0;
-    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at)
-        ++found;
-    return found;
 }
 
 /// Number of passes after which something happens.
@@ -109,7 +98,7 @@ TEST(Join, OneOfTwoIsKilledAndNothingElseHappens) {
     killed.signal(SIGKILL);
     const Ending ending = program.wait(kSoon);
     expect_done(folder, ending);
-    EXPECT_EQ(count(ending.output, "closed its connection"), 1) << ending.output;
+    EXPECT_EQ(count(ending.output, "closed its connection"), 1u) << ending.output;
     EXPECT_EQ(other.wait(kSoon).code, 0);
     EXPECT_EQ(killed.wait(kSoon).code, 128 + SIGKILL);
 }
@@ -121,7 +110,7 @@ TEST(Join, WhoeverMayNotIsToldWhatToDoAndDisturbsNobody) {
     const auto refused = [](const std::vector<std::string>& options, const std::string& why) {
         const Ending ending = Program(join(options)).wait(kSoon);
         EXPECT_EQ(ending.code, 2) << ending.output;
-        EXPECT_EQ(count(ending.output, "\n"), 1) << ending.output;
+        EXPECT_EQ(count(ending.output, "\n"), 1u) << ending.output;
         EXPECT_NE(ending.output.find(why), std::string::npos) << ending.output;
     };
     JoinTicket ticket = read_ticket(folder / kTicketFileName);
@@ -139,7 +128,7 @@ TEST(Join, WhoeverMayNotIsToldWhatToDoAndDisturbsNobody) {
     refused({fresh_folder("empty").string()}, "is no run directory");
     const Ending ending = program.wait(kSoon);
     expect_done(folder, ending);
-    EXPECT_EQ(count(ending.output, "the secret of this ticket is not the run's"), 1) << ending.output;
+    EXPECT_EQ(count(ending.output, "the secret of this ticket is not the run's"), 1u) << ending.output;
     refused({folder.string()}, "is over");
 }
 
@@ -181,10 +170,10 @@ TEST(Join, AGuestThatIsToldToLeaveGivesBackWhatItHas) {
     two.signal(SIGTERM);
     const Ending left = two.wait(kSoon);
     EXPECT_EQ(left.code, 0) << left.output;
-    EXPECT_EQ(count(left.output, "left the render, as it was told"), 2) << left.output;
+    EXPECT_EQ(count(left.output, "left the render, as it was told"), 2u) << left.output;
     const Ending ending = program.wait(kSoon);
     expect_done(folder, ending);
-    EXPECT_EQ(count(ending.output, "leaves, as it was told"), 2) << ending.output;
+    EXPECT_EQ(count(ending.output, "leaves, as it was told"), 2u) << ending.output;
     EXPECT_EQ(ending.output.find("closed its connection"), std::string::npos) << ending.output;
 }
 
@@ -201,7 +190,7 @@ TEST(Join, AGuestComesBackToARenderThatWasStartedAgain) {
     expect_done(folder, second.wait(kSoon));
     const Ending ending = guest.wait(kSoon);
     EXPECT_EQ(ending.code, 0) << ending.output;
-    EXPECT_EQ(count(ending.output, "joined the render at"), 2) << ending.output;
+    EXPECT_EQ(count(ending.output, "joined the render at"), 2u) << ending.output;
     EXPECT_NE(ending.output.find("the render is over"), std::string::npos) << ending.output;
 }
 

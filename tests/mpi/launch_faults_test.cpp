@@ -13,8 +13,6 @@
 namespace treefarm::test {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr double kDeadline = 180;  ///< seconds; what is meant is "not never"
 
 std::vector<std::string> launched(int processes, const fs::path& folder,

@@ -17,16 +17,13 @@
 namespace treefarm::test {
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr double kSoon = 180;  ///< seconds; what is meant is "not never"
-
 std::vector<std::string> launch(int processes, const std::vector<std::string>& options = {}) {
     return std::vector<std::string>{TREEFARM_PROGRAM, "launch", "-n", std::to_string(processes)} + options +
            std::vector<std::string>{"--"};
 }
 
-std::vector<std::string> render(const fs::path& folder, const std::vector<std::string>& options = {"--spp", "255"}) {
+std::vector<std::string> render_arguments(const fs::path& folder,
+                                          const std::vector<std::string>& options = {"--spp", "255"}) {
     return std::vector<std::string>{"render",    own_scene("cornell-box.xml"),
                                     "-D",        "size=48",
                                     "--run-dir", folder.string(),
@@ -37,13 +34,13 @@ std::vector<std::string> render(const fs::path& folder, const std::vector<std::s
 }
 
 std::vector<std::string> plain(const fs::path& folder, const std::vector<std::string>& options = {"--spp", "255"}) {
-    return std::vector<std::string>{TREEFARM_PROGRAM} + render(folder, options);
+    return std::vector<std::string>{TREEFARM_PROGRAM} + render_arguments(folder, options);
 }
 
 /// A render that ends only when somebody ends it.
 const std::vector<std::string> kEndless = {"--spp", "100000000"};
 
-const RunHashes& never_stopped() {
+const RunHashes& plain_hashes() {
     static const RunHashes truth = [] {
         const fs::path folder = fresh_folder("whole");
         const Ending ending = Program(plain(folder)).wait(kSoon);
@@ -109,9 +106,9 @@ bool is_mpirun(const Started& process) {
 TEST(Launch, ACalmRenderIsThePlainOne) {
     for (const int processes : {1, 3}) {
         const fs::path folder = fresh_folder("run");
-        const Ending ending = Program(launch(processes) + render(folder)).wait(kSoon);
+        const Ending ending = Program(launch(processes) + render_arguments(folder)).wait(kSoon);
         EXPECT_EQ(ending.code, 0) << ending.output;
-        EXPECT_EQ(hashes_of(folder), never_stopped());
+        EXPECT_EQ(hashes_of(folder), plain_hashes());
         EXPECT_TRUE(read_summary(folder)["attempt"].get<std::string>().ends_with(".1"));
         EXPECT_NE(ending.output.find("pass 8/8"), std::string::npos) << "what the render says is relayed";
         EXPECT_NE(read_file(folder / "launch/log").find("attempt 1: "), std::string::npos);
@@ -127,12 +124,12 @@ TEST(Launch, WhoeverIsKilledItGoesOnToTheSameBits) {
         {"all", [](const Started&) { return true; }}};
     for (const auto& [name, which] : victims) {
         const fs::path folder = fresh_folder("run");
-        Program program(launch(3) + render(folder));
+        Program program(launch(3) + render_arguments(folder));
         ASSERT_TRUE(program.wait_until([&] { return has_checkpoint(folder); }, kSoon)) << name;
         EXPECT_GT(kill_started(folder, which), 0) << name;
         const Ending ending = program.wait(kSoon);
         EXPECT_EQ(ending.code, 0) << name << ": " << ending.output;
-        EXPECT_EQ(hashes_of(folder), never_stopped()) << name;
+        EXPECT_EQ(hashes_of(folder), plain_hashes()) << name;
         EXPECT_EQ(passes_done(folder), 8) << name;
         expect_nothing_left(folder);
     }
@@ -140,32 +137,32 @@ TEST(Launch, WhoeverIsKilledItGoesOnToTheSameBits) {
 
 TEST(Launch, OneThatIsKilledAgainAndAgainComesToItsEnd) {
     const fs::path folder = fresh_folder("run");
-    Program program(launch(2) + render(folder));
+    Program program(launch(2) + render_arguments(folder));
     for (int passes = 1; passes <= 5; passes += 2) {
         ASSERT_TRUE(program.wait_until([&] { return has_checkpoint(folder) && passes_done(folder) >= passes; }, kSoon));
         kill_started(folder, [](const Started&) { return true; });
     }
     const Ending ending = program.wait(kSoon);
     EXPECT_EQ(ending.code, 0) << ending.output;
-    EXPECT_EQ(hashes_of(folder), never_stopped());
+    EXPECT_EQ(hashes_of(folder), plain_hashes());
     expect_nothing_left(folder);
 }
 
 TEST(Launch, WithoutACheckpointItBeginsAnew) {
     const fs::path folder = fresh_folder("run");
-    Program program(launch(1) + render(folder, {"--spp", "255", "--set", "farm.checkpoint_seconds=0"}));
+    Program program(launch(1) + render_arguments(folder, {"--spp", "255", "--set", "farm.checkpoint_seconds=0"}));
     ASSERT_TRUE(program.wait_until([&] { return passes_done(folder) >= 3; }, kSoon));
     kill_started(folder, [](const Started&) { return true; });
     const Ending ending = program.wait(kSoon);
     EXPECT_EQ(ending.code, 0) << ending.output;
-    EXPECT_EQ(hashes_of(folder), never_stopped());
+    EXPECT_EQ(hashes_of(folder), plain_hashes());
 }
 
 TEST(Launch, ASignalStopsItInOrder) {
     for (const int processes : {1, 3})
         for (const int number : {SIGINT, SIGTERM}) {
             const fs::path folder = fresh_folder("run");
-            Program program(launch(processes) + render(folder, kEndless));
+            Program program(launch(processes) + render_arguments(folder, kEndless));
             ASSERT_TRUE(program.wait_until(
                 [&] { return passes_done(folder) >= 3 && fs::exists(folder / "launch/status.json"); }, kSoon));
             program.signal(number);
@@ -183,14 +180,14 @@ TEST(Launch, ASignalStopsItInOrder) {
 
 TEST(Launch, AStoppedOneGoesOnUnderLaunch) {
     const fs::path folder = fresh_folder("run");
-    Program program(launch(2) + render(folder));
+    Program program(launch(2) + render_arguments(folder));
     ASSERT_TRUE(program.wait_until([&] { return passes_done(folder) >= 4; }, kSoon));
     program.signal(SIGINT);
     ASSERT_EQ(program.wait(kSoon).code, 3);
     const Ending ending =
         Program(launch(3) + std::vector<std::string>{"resume", folder.string(), "--threads", "2"}).wait(kSoon);
     EXPECT_EQ(ending.code, 0) << ending.output;
-    EXPECT_EQ(hashes_of(folder), never_stopped());
+    EXPECT_EQ(hashes_of(folder), plain_hashes());
 }
 
 TEST(Launch, BadInputEndsItAtOnce) {
@@ -198,7 +195,7 @@ TEST(Launch, BadInputEndsItAtOnce) {
     std::ofstream(scene) << "<scene version=\"3.0.0\">\n  <shape type=\"sphere\">\n</scene>\n";
     for (const int processes : {1, 3}) {
         const fs::path folder = fresh_folder("parent") / "run";
-        std::vector<std::string> command = render(folder);
+        std::vector<std::string> command = render_arguments(folder);
         command[1] = scene.string();
         const Ending ending = Program(launch(processes) + command).wait(kSoon);
         EXPECT_EQ(ending.code, 2) << ending.output;
@@ -228,20 +225,21 @@ TEST(Launch, ARenderThatIsThereIsNotReplaced) {
     const fs::path folder = fresh_folder("run");
     ASSERT_EQ(Program(plain(folder, {"--spp", "4"})).wait(kSoon).code, 0);
     const RunHashes before = hashes_of(folder);
-    const Ending refused = Program(launch(1) + render(folder)).wait(kSoon);
+    const Ending refused = Program(launch(1) + render_arguments(folder)).wait(kSoon);
     EXPECT_EQ(refused.code, 2) << refused.output;
     EXPECT_EQ(hashes_of(folder), before);
     EXPECT_FALSE(fs::exists(folder / "launch"));
-    const Ending replaced = Program(launch(1) + render(folder) + std::vector<std::string>{"--overwrite"}).wait(kSoon);
+    const Ending replaced =
+        Program(launch(1) + render_arguments(folder) + std::vector<std::string>{"--overwrite"}).wait(kSoon);
     EXPECT_EQ(replaced.code, 0) << replaced.output;
-    EXPECT_EQ(hashes_of(folder), never_stopped());
+    EXPECT_EQ(hashes_of(folder), plain_hashes());
 }
 
 TEST(Launch, TwoDoNotWatchOneFolder) {
     const fs::path folder = fresh_folder("run");
-    Program first(launch(1) + render(folder, kEndless));
+    Program first(launch(1) + render_arguments(folder, kEndless));
     ASSERT_TRUE(first.wait_until([&] { return passes_done(folder) >= 1; }, kSoon));
-    const Ending second = Program(launch(1) + render(folder)).wait(kSoon);
+    const Ending second = Program(launch(1) + render_arguments(folder)).wait(kSoon);
     EXPECT_EQ(second.code, 2);
     EXPECT_NE(second.output.find("another treefarm launch is at work"), std::string::npos) << second.output;
     first.signal(SIGINT);
@@ -263,7 +261,7 @@ TEST(Launch, WhatAlwaysDiesEndsWithOneLineThatSaysWhatToDo) {
     const fs::path folder = fresh_folder("run");
     const fs::path mpirun = false_mpirun("exit 7");
     const Ending ending =
-        Program(launch(2, {"--restarts", "2", "--mpirun", mpirun.string()}) + render(folder)).wait(kSoon);
+        Program(launch(2, {"--restarts", "2", "--mpirun", mpirun.string()}) + render_arguments(folder)).wait(kSoon);
     EXPECT_EQ(ending.code, 1) << ending.output;
     EXPECT_NE(ending.output.find("the render's processes are gone in the start, before any sign of life; given up "
                                  "after 3 attempts in a row without progress, all of which ended there; no pass is "
@@ -278,21 +276,22 @@ TEST(Launch, WhatAlwaysDiesEndsWithOneLineThatSaysWhatToDo) {
 
 TEST(Launch, ItsProcessesShareASecretWhereTheyAllSeeIt) {
     const fs::path folder = fresh_folder("run"), key = folder / "launch/key";
-    Program program(launch(3) + render(folder));
+    Program program(launch(3) + render_arguments(folder));
     ASSERT_TRUE(program.wait_until([&] { return passes_done(folder) >= 1; }, kSoon));
     EXPECT_EQ(fs::status(key).permissions(), fs::perms::owner_read | fs::perms::owner_write);
     const Ending sealed = program.wait(kSoon);
     EXPECT_EQ(sealed.code, 0) << sealed.output;
     EXPECT_EQ(sealed.output.find("authenticated"), std::string::npos) << sealed.output;
-    EXPECT_EQ(hashes_of(folder), never_stopped());
+    EXPECT_EQ(hashes_of(folder), plain_hashes());
     EXPECT_FALSE(fs::exists(key));
 
     const fs::path other = fresh_folder("run");
     const std::string script = "rm " + (other / "launch/key").string() + "\nexec mpirun \"$@\"\n";
-    const Ending open = Program(launch(2, {"--mpirun", false_mpirun(script).string()}) + render(other)).wait(kSoon);
+    const Ending open =
+        Program(launch(2, {"--mpirun", false_mpirun(script).string()}) + render_arguments(other)).wait(kSoon);
     EXPECT_EQ(open.code, 0) << open.output;
     EXPECT_NE(open.output.find("launch/key: messages are not authenticated"), std::string::npos) << open.output;
-    EXPECT_EQ(hashes_of(other), never_stopped());
+    EXPECT_EQ(hashes_of(other), plain_hashes());
 }
 
 TEST(Launch, DeathsAtOneStageNameIt) {
@@ -325,30 +324,31 @@ TEST(Launch, TheExitCodeOfMpirunIsNotBelieved) {
     for (const char* code : {"exit 0", "exit 9"}) {
         const fs::path folder = fresh_folder("run");
         const std::string mpirun = false_mpirun(std::string(kRun) + code).string();
-        const Ending ending = Program(launch(2, {"--mpirun", mpirun}) + render(folder)).wait(kSoon);
+        const Ending ending = Program(launch(2, {"--mpirun", mpirun}) + render_arguments(folder)).wait(kSoon);
         EXPECT_EQ(ending.code, 0) << code << ending.output;
-        EXPECT_EQ(hashes_of(folder), never_stopped());
+        EXPECT_EQ(hashes_of(folder), plain_hashes());
     }
     const fs::path folder = fresh_folder("run");
     const std::string mpirun = false_mpirun("exit 0").string();
-    EXPECT_EQ(Program(launch(2, {"--mpirun", mpirun, "--restarts", "0"}) + render(folder)).wait(kSoon).code, 1);
+    EXPECT_EQ(Program(launch(2, {"--mpirun", mpirun, "--restarts", "0"}) + render_arguments(folder)).wait(kSoon).code,
+              1);
 }
 
 TEST(Launch, AnMpirunThatStaysAndIsDeafIsEndedAfterTheResult) {
     const fs::path folder = fresh_folder("run");
     const std::string mpirun =
         false_mpirun("trap '' TERM\n" + std::string(kRun) + "while :; do sleep 1; done\n").string();
-    const Ending ending = Program(launch(2, {"--mpirun", mpirun}) + render(folder)).wait(kSoon);
+    const Ending ending = Program(launch(2, {"--mpirun", mpirun}) + render_arguments(folder)).wait(kSoon);
     EXPECT_FALSE(ending.timed_out);
     EXPECT_EQ(ending.code, 0) << ending.output;
-    EXPECT_EQ(hashes_of(folder), never_stopped());
+    EXPECT_EQ(hashes_of(folder), plain_hashes());
     EXPECT_EQ(ending.output.find("again in"), std::string::npos) << ending.output;
     expect_nothing_left(folder);
 }
 
 TEST(Launch, WhereItIsKilledItsRenderGoesWithIt) {
     const fs::path folder = fresh_folder("run");
-    Program program(launch(3) + render(folder, kEndless));
+    Program program(launch(3) + render_arguments(folder, kEndless));
     ASSERT_TRUE(program.wait_until([&] { return passes_done(folder) >= 2; }, kSoon));
     program.signal(SIGKILL);
     program.wait(kSoon);

@@ -9,11 +9,7 @@
 namespace treefarm::test {
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr double kSoon = 120;
-
-std::vector<std::string> render(const fs::path& folder) {
+std::vector<std::string> render_to_leave(const fs::path& folder) {
     return {TREEFARM_PROGRAM,
             "render",
             own_scene("cornell-box.xml"),
@@ -29,8 +25,8 @@ std::vector<std::string> render(const fs::path& folder) {
 
 TEST(Leave, AWorkerThatGetsSigtermLeavesAndTheImageIsTheSame) {
     const fs::path whole = fresh_folder("whole"), folder = fresh_folder("run");
-    ASSERT_EQ(Program(render(whole)).wait(kSoon).code, 0);
-    Program program(mpirun(3) + render(folder));
+    ASSERT_EQ(Program(render_to_leave(whole)).wait(kSoon).code, 0);
+    Program program(mpirun(3) + render_to_leave(folder));
     ASSERT_TRUE(program.wait_until([&] { return passes_done(folder) >= 2; }, kSoon));
     const pid_t worker = program.rank(2);
     ASSERT_GT(worker, 0);

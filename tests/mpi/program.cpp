@@ -187,4 +187,16 @@ int passes_done(const std::filesystem::path& run_directory) {
     return static_cast<int>(std::count(text.begin(), text.end(), '\n')) - (text.empty() ? 0 : 1);
 }
 
+nlohmann::json read_json(const fs::path& path) {
+    std::ifstream file(path);
+    return nlohmann::json::parse(file, nullptr, false);
+}
+
+std::size_t count(const std::string& text, const std::string& what) {
+    std::size_t found = 0;
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at)
+        ++found;
+    return found;
+}
+
 }  // namespace treefarm::test

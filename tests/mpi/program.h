@@ -11,6 +11,12 @@
 
 namespace treefarm::test {
 
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+inline constexpr double kSoon = 240;           ///< seconds; what is meant is "not never"
+inline constexpr char kForever[] = "1000000";  ///< samples per pixel that no test waits for
+
 /// How a program ended.
 struct Ending {
     int code = -1;           ///< 128 + signal if it was killed
@@ -56,6 +62,11 @@ std::vector<std::string> operator+(std::vector<std::string> a, const std::vector
 /// A render of the Cornell box, 64 x 64, by one thread a process.
 std::vector<std::string> small_render(const std::filesystem::path& folder, const std::string& spp,
                                       const std::vector<std::string>& options = {});
+
+/// The content of a file; a discarded value where it is no JSON.
+nlohmann::json read_json(const fs::path& path);
+
+std::size_t count(const std::string& text, const std::string& what);
 
 /// A fresh folder below TempDir.
 std::filesystem::path fresh_folder(const std::string& name);

@@ -16,14 +16,11 @@
 namespace treefarm::test {
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr double kSoon = 120;
-
 const std::vector<std::string> kFast = {
     "--threads", "1", "--set", "farm.checkpoint_seconds=0.001", "--set", "farm.heartbeat_seconds=0.2"};
 
-std::vector<std::string> render(const fs::path& folder, const std::vector<std::string>& options = {"--spp", "255"}) {
+std::vector<std::string> render_to_resume(const fs::path& folder,
+                                          const std::vector<std::string>& options = {"--spp", "255"}) {
     return std::vector<std::string>{TREEFARM_PROGRAM, "render",       own_scene("cornell-box.xml"), "-D", "size=48",
                                     "--run-dir",      folder.string()} +
            kFast + options;
@@ -40,7 +37,7 @@ std::vector<std::string> launcher(int ranks) {
 const RunHashes& never_stopped() {
     static const RunHashes truth = [] {
         const fs::path folder = fresh_folder("whole");
-        const Ending ending = Program(render(folder)).wait(kSoon);
+        const Ending ending = Program(render_to_resume(folder)).wait(kSoon);
         EXPECT_EQ(ending.code, 0) << ending.output;
         return hashes_of(folder);
     }();
@@ -79,7 +76,7 @@ std::string refusal(const fs::path& folder, const std::vector<std::string>& opti
 /// A render that was broken off.
 fs::path broken_off(const std::vector<std::string>& options = {"--spp", "255"}) {
     const fs::path folder = fresh_folder("run");
-    kill_after(render(folder, options), 1, folder, 0.0);
+    kill_after(render_to_resume(folder, options), 1, folder, 0.0);
     return folder;
 }
 
@@ -88,7 +85,7 @@ TEST(Resume, AKilledProgramGoesOnUnderAnyNumberOfRanks) {
     int k = 0, resumes = 0;
     for (const auto& [before, after] : {std::pair(1, 3), std::pair(3, 1), std::pair(2, 5), std::pair(1, 1)}) {
         const fs::path folder = fresh_folder("run");
-        kill_after(render(folder), before, folder, 0.05 * static_cast<double>(random() % 8));
+        kill_after(render_to_resume(folder), before, folder, 0.05 * static_cast<double>(random() % 8));
         if (fs::exists(folder / "summary.json")) continue;  // it was done before
         ++resumes;
         EXPECT_EQ(resumed(after, folder, {"--threads", std::to_string(1 + k++ % 3)}), 0);
@@ -103,7 +100,7 @@ const std::vector<std::string> kOnePass = {"--spp", "1500", "--set", "guiding.sp
 const RunHashes& one_pass() {
     static const RunHashes truth = [] {
         const fs::path folder = fresh_folder("one-pass");
-        EXPECT_EQ(Program(render(folder, kOnePass)).wait(kSoon).code, 0);
+        EXPECT_EQ(Program(render_to_resume(folder, kOnePass)).wait(kSoon).code, 0);
         return hashes_of(folder);
     }();
     return truth;
@@ -121,7 +118,7 @@ bool has_partial_pass(const fs::path& folder) {
 TEST(Resume, AProgramThatIsKilledWithinAPassGoesOnWithinIt) {
     const RunHashes& truth = one_pass();
     const fs::path folder = fresh_folder("run");
-    Program program(render(folder, kOnePass));
+    Program program(render_to_resume(folder, kOnePass));
     ASSERT_TRUE(program.wait_until([&] { return has_partial_pass(folder); }, kSoon));
     program.signal(SIGKILL);
     program.wait(kSoon);
@@ -136,7 +133,7 @@ TEST(Resume, AProgramThatIsKilledWithinAPassGoesOnWithinIt) {
 TEST(Resume, AProgramThatIsInterruptedWithinItsFirstPassKeepsWhatItHas) {
     const RunHashes& truth = one_pass();
     const fs::path folder = fresh_folder("run");
-    Program program(render(folder, kOnePass));
+    Program program(render_to_resume(folder, kOnePass));
     ASSERT_TRUE(program.wait_until([&] { return has_partial_pass(folder); }, kSoon));
     program.signal(SIGINT);
     const Ending ending = program.wait(kSoon);
@@ -153,7 +150,7 @@ TEST(Resume, AProgramThatIsInterruptedWithinItsFirstPassKeepsWhatItHas) {
 void expect_that_splats_go_on(const std::string& type, const char* spp) {
     const std::vector<std::string> options = {"--spp", spp, "--set", "integrator.type=" + type};
     const fs::path whole = fresh_folder("whole-" + type);
-    EXPECT_EQ(Program(render(whole, options)).wait(kSoon).code, 0);
+    EXPECT_EQ(Program(render_to_resume(whole, options)).wait(kSoon).code, 0);
     const fs::path folder = broken_off(options);
     ASSERT_FALSE(fs::exists(folder / "summary.json")) << "it was done before it could be killed";
     EXPECT_EQ(resumed(3, folder, {"--threads", "2"}), 0);
@@ -170,7 +167,7 @@ TEST(Resume, AKilledRenderFromBothEndsGoesOn) {
 
 TEST(Resume, AnInterruptedProgramGoesOn) {
     const fs::path folder = fresh_folder("run");
-    Program program(render(folder));
+    Program program(render_to_resume(folder));
     ASSERT_TRUE(program.wait_until([&] { return passes_done(folder) >= 5; }, kSoon));
     program.signal(SIGINT);
     EXPECT_EQ(program.wait(kSoon).code, 3);
@@ -184,7 +181,7 @@ TEST(Resume, AGrownBudgetAndATimedOneAreWhatTheirScheduleReplays) {
           {{"--seconds", "1"}, {"--seconds", "2"}},
           {{"--error", "40%"}, {"--error", "30%"}}}) {
         const fs::path folder = fresh_folder("run");
-        ASSERT_EQ(Program(render(folder, first)).wait(kSoon).code, 0);
+        ASSERT_EQ(Program(render_to_resume(folder, first)).wait(kSoon).code, 0);
         const int spp = read_summary(folder)["spp"];
         ASSERT_EQ(resumed(2, folder, more), 0);
         EXPECT_GT(read_summary(folder)["spp"], spp);
@@ -199,7 +196,7 @@ TEST(Resume, AGrownBudgetAndATimedOneAreWhatTheirScheduleReplays) {
 
 TEST(Resume, TheSecondsOfAllLivesCount) {
     const fs::path folder = fresh_folder("run");
-    kill_after(render(folder, {"--seconds", "4"}), 1, folder, 1.5);
+    kill_after(render_to_resume(folder, {"--seconds", "4"}), 1, folder, 1.5);
     ASSERT_EQ(resumed(1, folder), 0);
     const nlohmann::json summary = read_summary(folder);
     EXPECT_GT(summary["passes"].back()["run_seconds"], summary["seconds"]) << "more than this life's";
@@ -207,7 +204,7 @@ TEST(Resume, TheSecondsOfAllLivesCount) {
 
 TEST(Resume, WhereTheNewestIsDamagedTheOneBeforeIsUsed) {
     const fs::path folder = fresh_folder("run");
-    Program program(render(folder));
+    Program program(render_to_resume(folder));
     ASSERT_TRUE(program.wait_until(
         [&] { return fs::exists(folder / "checkpoint/a.tfc") && fs::exists(folder / "checkpoint/b.tfc"); }, kSoon));
     program.signal(SIGKILL);
@@ -244,7 +241,7 @@ TEST(Resume, ASceneThatHasChangedIsRefused) {
     const fs::path scene = fresh_folder("scene") / "box.xml";
     fs::copy_file(own_scene("cornell-box.xml"), scene);
     const fs::path folder = fresh_folder("run");
-    std::vector<std::string> command = render(folder);
+    std::vector<std::string> command = render_to_resume(folder);
     command[2] = scene.string();
     kill_after(command, 1, folder, 0.0);
     std::string text = read_file(scene);
@@ -260,7 +257,8 @@ TEST(Resume, WhatIsNoRunDirectorySaysSo) {
     const Ending ending = Program(resume(folder)).wait(kSoon);
     EXPECT_EQ(ending.code, 2);
     EXPECT_NE(ending.output.find("is no run directory"), std::string::npos) << ending.output;
-    ASSERT_EQ(Program(render(folder, {"--spp", "4", "--set", "output.keep_checkpoint=false"})).wait(kSoon).code, 0);
+    ASSERT_EQ(
+        Program(render_to_resume(folder, {"--spp", "4", "--set", "output.keep_checkpoint=false"})).wait(kSoon).code, 0);
     EXPECT_FALSE(fs::exists(folder / "checkpoint"));
     EXPECT_NE(refusal(folder).find("holds no checkpoint"), std::string::npos);
 }
@@ -276,7 +274,8 @@ TEST(Resume, TheImageGoesWhereTheRenderWouldHavePutIt) {
 /// As a queue does that tries again.
 TEST(RenderResume, TheSameCommandBeginsGoesOnAndIsDone) {
     const fs::path folder = fresh_folder("run"), image = fresh_folder("out") / "box.exr";
-    const std::vector<std::string> command = render(folder, {"--spp", "255", "--resume", "-o", image.string()});
+    const std::vector<std::string> command =
+        render_to_resume(folder, {"--spp", "255", "--resume", "-o", image.string()});
     kill_after(command, 1, folder, 0.0);
     const Ending ending = Program(mpirun(3) + command).wait(kSoon);
     EXPECT_EQ(ending.code, 0) << ending.output;
@@ -295,15 +294,16 @@ TEST(RenderResume, TheSameCommandBeginsGoesOnAndIsDone) {
 
 TEST(RenderResume, AnotherRenderIsNeitherGoneOnWithNorReplaced) {
     const fs::path folder = broken_off();
-    const Ending other = Program(render(folder, {"--spp", "255", "--resume", "--set", "sampler.seed=3"})).wait(kSoon);
+    const Ending other =
+        Program(render_to_resume(folder, {"--spp", "255", "--resume", "--set", "sampler.seed=3"})).wait(kSoon);
     EXPECT_EQ(other.code, 2) << other.output;
     EXPECT_NE(other.output.find("sampler.seed was \"0\", is \"3\""), std::string::npos) << other.output;
-    ASSERT_EQ(Program(render(folder, {"--spp", "255", "--resume"})).wait(kSoon).code, 0);
+    ASSERT_EQ(Program(render_to_resume(folder, {"--spp", "255", "--resume"})).wait(kSoon).code, 0);
     EXPECT_EQ(hashes_of(folder), never_stopped());
-    const Ending more = Program(render(folder, {"--spp", "600", "--resume"})).wait(kSoon);
+    const Ending more = Program(render_to_resume(folder, {"--spp", "600", "--resume"})).wait(kSoon);
     EXPECT_EQ(more.code, 0) << more.output;
     EXPECT_EQ(read_summary(folder)["spp"], 600);
-    const Ending fewer = Program(render(folder, {"--spp", "100", "--resume"})).wait(kSoon);
+    const Ending fewer = Program(render_to_resume(folder, {"--spp", "100", "--resume"})).wait(kSoon);
     EXPECT_EQ(fewer.code, 2) << fewer.output;
     EXPECT_NE(fewer.output.find("is done (600 spp)"), std::string::npos) << fewer.output;
     const Ending nowhere = Program({TREEFARM_PROGRAM, "render", own_scene("cornell-box.xml"), "--resume"}).wait(kSoon);

@@ -16,17 +16,6 @@
 namespace treefarm::test {
 namespace {
 
-namespace fs = std::filesystem;
-using Words = std::vector<std::string>;
-
-constexpr double kSoon = 120;  ///< seconds; what is meant is "not never"
-constexpr char kForever[] = "1000000";
-
-nlohmann::json read_json(const fs::path& path) {
-    std::ifstream file(path);
-    return nlohmann::json::parse(file, nullptr, false);
-}
-
 /// A disk of so many KiB below a fresh folder; not there where mounting is not permitted.
 class SmallDisk {
   public:

@@ -13,12 +13,6 @@
 namespace treefarm::test {
 namespace {
 
-namespace fs = std::filesystem;
-using Words = std::vector<std::string>;
-
-constexpr double kSoon = 120;  ///< seconds; what is meant is "not never"
-constexpr char kForever[] = "1000000";
-
 TEST(RunFolder, ARenderIsNotReplacedInSilence) {
     const auto folder = fresh_folder("run");
     ASSERT_EQ(Program(small_render(folder, "7")).wait(kSoon).code, 0);

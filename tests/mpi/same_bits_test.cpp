@@ -53,14 +53,14 @@ Hashes render_scene(const std::vector<std::string>& launcher, const std::vector<
     return {summary["image_hash"], summary["tree_hash"], summary["aov_hash"], worst};
 }
 
-Hashes render(const std::vector<std::string>& launcher, const std::vector<std::string>& options) {
+Hashes render_by(const std::vector<std::string>& launcher, const std::vector<std::string>& options) {
     return render_scene(launcher, std::vector<std::string>{own_scene("cornell-box.xml"), "-D", "size=64", "--spp", "60",
                                                            "--set", "guiding.spatial_threshold=500"} +
                                       options);
 }
 
 const Hashes& one_thread() {
-    static const Hashes hashes = render({}, {"--threads", "1"});
+    static const Hashes hashes = render_by({}, {"--threads", "1"});
     return hashes;
 }
 
@@ -89,42 +89,43 @@ void expect_same_bits(const std::string& scene, const std::vector<int>& ranks,
 }
 
 TEST(SameBits, HashesTellImagesApart) {
-    const Hashes other = render({}, {"--threads", "1", "--set", "sampler.seed=1"});
+    const Hashes other = render_by({}, {"--threads", "1", "--set", "sampler.seed=1"});
     EXPECT_NE(other.image, one_thread().image);
     EXPECT_NE(other.tree, one_thread().tree);
 }
 
 TEST(SameBits, Threads2) {
-    EXPECT_EQ(render({}, {"--threads", "2"}), one_thread());
+    EXPECT_EQ(render_by({}, {"--threads", "2"}), one_thread());
 }
 
 TEST(SameBits, Threads5) {
-    EXPECT_EQ(render({}, {"--threads", "5"}), one_thread());
+    EXPECT_EQ(render_by({}, {"--threads", "5"}), one_thread());
 }
 
 TEST(SameBits, TileSizes) {
     for (const char* size : {"8", "50"})
-        EXPECT_EQ(render({}, {"--threads", "2", "--set", std::string("farm.tile_size=") + size}), one_thread()) << size;
+        EXPECT_EQ(render_by({}, {"--threads", "2", "--set", std::string("farm.tile_size=") + size}), one_thread())
+            << size;
 }
 
 TEST(SameBits, Ranks1) {
-    EXPECT_EQ(render(mpirun(1), {}), one_thread());
+    EXPECT_EQ(render_by(mpirun(1), {}), one_thread());
 }
 
 TEST(SameBits, Ranks2) {
-    EXPECT_EQ(render(mpirun(2), {"--threads", "1"}), one_thread());
+    EXPECT_EQ(render_by(mpirun(2), {"--threads", "1"}), one_thread());
 }
 
 TEST(SameBits, Ranks3) {
-    EXPECT_EQ(render(mpirun(3), {"--threads", "1", "--set", "farm.tile_size=8"}), one_thread());
+    EXPECT_EQ(render_by(mpirun(3), {"--threads", "1", "--set", "farm.tile_size=8"}), one_thread());
 }
 
 TEST(SameBits, Ranks5) {
-    EXPECT_EQ(render(mpirun(5), {"--threads", "2", "--set", "farm.tile_size=50"}), one_thread());
+    EXPECT_EQ(render_by(mpirun(5), {"--threads", "2", "--set", "farm.tile_size=50"}), one_thread());
 }
 
 TEST(SameBits, Ranks3OverTcp) {
-    EXPECT_EQ(render(mpirun(3, {"--mca", "btl", "tcp,self"}), {"--threads", "1"}), one_thread());
+    EXPECT_EQ(render_by(mpirun(3, {"--mca", "btl", "tcp,self"}), {"--threads", "1"}), one_thread());
 }
 
 /// Ranks, threads and tiles change together.

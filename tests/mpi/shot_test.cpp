@@ -11,9 +11,6 @@
 namespace treefarm::test {
 namespace {
 
-namespace fs = std::filesystem;
-constexpr double kPatience = 240;
-
 /// A lit square that turns with $angle; frame 3 has another file, which is broken.
 void write_scenes(const fs::path& folder) {
     const std::string text = R"(<scene version="3.0.0"><default name="angle" value="0"/>
@@ -29,7 +26,7 @@ void write_scenes(const fs::path& folder) {
     std::ofstream(folder / "turn.xml") << text;
 }
 
-std::vector<std::string> render(const fs::path& scene, const std::vector<std::string>& options) {
+std::vector<std::string> render_shot(const fs::path& scene, const std::vector<std::string>& options) {
     return std::vector<std::string>{TREEFARM_PROGRAM,
                                     "render",
                                     scene.string(),
@@ -55,12 +52,10 @@ std::vector<std::string> states(const fs::path& directory) {
     return list;
 }
 
-using Words = std::vector<std::string>;
-
 class ShotTest : public ::testing::TestWithParam<int> {
   protected:
     Ending run(const std::vector<std::string>& command) const {
-        return Program((GetParam() == 0 ? Words() : mpirun(GetParam())) + command).wait(kPatience);
+        return Program((GetParam() == 0 ? Words() : mpirun(GetParam())) + command).wait(kSoon);
     }
 };
 
@@ -68,8 +63,8 @@ TEST_P(ShotTest, ABrokenFrameStopsNoOtherAndFinishedOnesAreKept) {
     const fs::path folder = fresh_folder("shot"), shot = folder / "shot";
     write_scenes(folder);
     const auto command =
-        render(folder / "turn.%02d.xml", {"--frames", "1-4", "-D", "angle=%d", "--set", "sampler.seed=%03d",
-                                          "--run-dir", shot.string(), "-o", (folder / "out/f.####.exr").string()});
+        render_shot(folder / "turn.%02d.xml", {"--frames", "1-4", "-D", "angle=%d", "--set", "sampler.seed=%03d",
+                                               "--run-dir", shot.string(), "-o", (folder / "out/f.####.exr").string()});
     const Ending first = run(command);
     EXPECT_EQ(first.code, 1) << first.output;
     EXPECT_EQ(states(shot), (Words{"done", "done", "failed", "done"})) << first.output;
@@ -82,8 +77,8 @@ TEST_P(ShotTest, ABrokenFrameStopsNoOtherAndFinishedOnesAreKept) {
         const std::string number = std::to_string(frame), digits = "000" + number;
         const fs::path lone = folder / ("lone" + number);
         const Ending ending =
-            run(render(folder / ("turn.0" + number + ".xml"),
-                       {"-D", "angle=" + number, "--set", "sampler.seed=" + number, "--run-dir", lone.string()}));
+            run(render_shot(folder / ("turn.0" + number + ".xml"),
+                            {"-D", "angle=" + number, "--set", "sampler.seed=" + number, "--run-dir", lone.string()}));
         ASSERT_EQ(ending.code, 0) << ending.output;
         const nlohmann::json summary = read_summary(shot / ("frame." + digits));
         EXPECT_EQ(summary["image_hash"], read_summary(lone)["image_hash"]) << "frame " << frame;
@@ -125,16 +120,16 @@ INSTANTIATE_TEST_SUITE_P(Ranks, ShotTest, ::testing::Values(0, 3));
 TEST(Shot, AnInterruptIsResumable) {
     const fs::path folder = fresh_folder("shot"), shot = folder / "shot";
     write_scenes(folder);
-    auto command = render(folder / "turn.xml", {"--frames", "1-40", "-D", "angle=%d", "--run-dir", shot.string()});
+    auto command = render_shot(folder / "turn.xml", {"--frames", "1-40", "-D", "angle=%d", "--run-dir", shot.string()});
     {
         Program program(mpirun(2) + command);
-        ASSERT_TRUE(program.wait_until([&] { return fs::exists(shot / "frame.0003" / "summary.json"); }, kPatience));
+        ASSERT_TRUE(program.wait_until([&] { return fs::exists(shot / "frame.0003" / "summary.json"); }, kSoon));
         program.signal(SIGINT);
-        const Ending ending = program.wait(kPatience);
+        const Ending ending = program.wait(kSoon);
         EXPECT_NE(ending.code, 0) << ending.output;
     }
     const nlohmann::json before = read_summary(shot / "frame.0002");
-    const Ending ending = Program(mpirun(2) + command).wait(kPatience);
+    const Ending ending = Program(mpirun(2) + command).wait(kSoon);
     EXPECT_EQ(ending.code, 0) << ending.output;
     EXPECT_EQ(read_summary(shot / "frame.0002"), before);
     for (const std::string& state : states(shot))
@@ -146,7 +141,7 @@ TEST(Shot, WhatCannotBeIsRefusedBeforeAFrameIsRendered) {
     write_scenes(folder);
     const auto refusal = [&](const Words& options) {
         const Ending ending =
-            Program(render(folder / "turn.xml", Words{"--run-dir", shot.string()} + options)).wait(kPatience);
+            Program(render_shot(folder / "turn.xml", Words{"--run-dir", shot.string()} + options)).wait(kSoon);
         EXPECT_EQ(ending.code, 2) << ending.output;
         EXPECT_FALSE(fs::exists(shot)) << ending.output;
         return ending.output;
@@ -162,14 +157,14 @@ TEST(Shot, WhatCannotBeIsRefusedBeforeAFrameIsRendered) {
 TEST(Shot, DoesNotMixWithOtherFolders) {
     const fs::path folder = fresh_folder("shot"), lone = folder / "lone", shot = folder / "shot";
     write_scenes(folder);
-    ASSERT_EQ(Program(render(folder / "turn.xml", {"--run-dir", lone.string()})).wait(kPatience).code, 0);
+    ASSERT_EQ(Program(render_shot(folder / "turn.xml", {"--run-dir", lone.string()})).wait(kSoon).code, 0);
     const Words frames = {"--frames", "1", "-D", "angle=%d", "--run-dir"};
-    const Ending on_render = Program(render(folder / "turn.xml", frames + Words{lone.string()})).wait(kPatience);
+    const Ending on_render = Program(render_shot(folder / "turn.xml", frames + Words{lone.string()})).wait(kSoon);
     EXPECT_EQ(on_render.code, 2);
     EXPECT_NE(on_render.output.find("holds a render (done, 6 spp), which a shot does not replace"), std::string::npos)
         << on_render.output;
-    ASSERT_EQ(Program(render(folder / "turn.xml", frames + Words{shot.string()})).wait(kPatience).code, 0);
-    const Ending on_shot = Program(render(folder / "turn.xml", {"--run-dir", shot.string()})).wait(kPatience);
+    ASSERT_EQ(Program(render_shot(folder / "turn.xml", frames + Words{shot.string()})).wait(kSoon).code, 0);
+    const Ending on_shot = Program(render_shot(folder / "turn.xml", {"--run-dir", shot.string()})).wait(kSoon);
     EXPECT_EQ(on_shot.code, 2);
     EXPECT_NE(on_shot.output.find("holds a shot"), std::string::npos) << on_shot.output;
 }

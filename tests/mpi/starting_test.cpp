@@ -10,8 +10,6 @@
 namespace treefarm::test {
 namespace {
 
-constexpr double kSoon = 60;  ///< seconds; what is meant is "not never"
-
 std::vector<std::string> render(const std::filesystem::path& folder, const std::vector<std::string>& options = {}) {
     return std::vector<std::string>{TREEFARM_PROGRAM,
                                     "render",

@@ -17,8 +17,6 @@
 namespace treefarm::test {
 namespace {
 
-namespace fs = std::filesystem;
-constexpr double kPatience = 240;
 constexpr std::size_t kCells = 3 * 2 * 4;
 
 fs::path write_study(const fs::path& folder) {
@@ -35,11 +33,6 @@ fs::path write_study(const fs::path& folder) {
 
 std::vector<std::string> study(const fs::path& file, const fs::path& directory) {
     return {TREEFARM_PROGRAM, "study", file.string(), "--dir", directory.string(), "--threads", "1"};
-}
-
-nlohmann::json read_json(const fs::path& path) {
-    std::ifstream file(path);
-    return nlohmann::json::parse(file);
 }
 
 /// cell.json of every cell that is whole, by its folder.
@@ -75,33 +68,32 @@ TEST_P(StudyTest, KilledHalfWayGoesOn) {
     const fs::path file = write_study(folder);
     {
         Program program(launcher + study(file, broken));
-        ASSERT_TRUE(program.wait_until([&] { return whole_cells(broken).size() >= kCells / 2; }, kPatience));
+        ASSERT_TRUE(program.wait_until([&] { return whole_cells(broken).size() >= kCells / 2; }, kSoon));
         program.signal(SIGKILL);
         program.wait(10);
     }
     const auto before = whole_cells(broken);
     ASSERT_LT(before.size(), kCells) << "the kill came too late to test anything";
 
-    const Ending again = Program(launcher + study(file, broken)).wait(kPatience);
+    const Ending again = Program(launcher + study(file, broken)).wait(kSoon);
     EXPECT_EQ(again.code, 0) << again.output;
     const auto after = whole_cells(broken);
     for (const auto& [name, cell] : before)
         EXPECT_EQ(after.at(name), cell) << "a finished cell was rendered again: its seconds would differ";
 
-    const Ending ending = Program(launcher + study(file, whole)).wait(kPatience);
+    const Ending ending = Program(launcher + study(file, whole)).wait(kSoon);
     EXPECT_EQ(ending.code, 0) << ending.output;
     expect_same_numbers(after, whole_cells(whole));
     EXPECT_EQ(read_json(broken / "study.json")["cells"], read_json(whole / "study.json")["cells"]);
 
-    const Ending dry =
-        Program(study(file, whole) + std::vector<std::string>{"--dry-run", "--no-probe"}).wait(kPatience);
+    const Ending dry = Program(study(file, whole) + std::vector<std::string>{"--dry-run", "--no-probe"}).wait(kSoon);
     EXPECT_NE(dry.output.find("24 of 24 cells are done"), std::string::npos) << dry.output;
 
     std::vector<std::string> other_build = study(file, whole) + std::vector<std::string>{"--dry-run", "--no-probe"};
     other_build[0] = folder / "treefarm";
     fs::copy_file(TREEFARM_PROGRAM, other_build[0]);
     std::ofstream(other_build[0], std::ios::binary | std::ios::app) << ' ';
-    const Ending other = Program(other_build).wait(kPatience);
+    const Ending other = Program(other_build).wait(kSoon);
     EXPECT_NE(other.output.find("0 of 24 cells are done"), std::string::npos) << other.output;
 }
 
@@ -111,9 +103,9 @@ TEST(StudyProgram, AnInterruptIsResumable) {
     const fs::path folder = fresh_folder("study");
     const fs::path file = write_study(folder);
     Program program(study(file, folder / "results"));
-    ASSERT_TRUE(program.wait_until([&] { return !whole_cells(folder / "results").empty(); }, kPatience));
+    ASSERT_TRUE(program.wait_until([&] { return !whole_cells(folder / "results").empty(); }, kSoon));
     program.signal(SIGINT);
-    const Ending ending = program.wait(kPatience);
+    const Ending ending = program.wait(kSoon);
     EXPECT_EQ(ending.code, 3) << ending.output;
     EXPECT_NE(ending.output.find("goes on from here"), std::string::npos) << ending.output;
 }
@@ -127,11 +119,11 @@ TEST(StudyProgram, TwoDoNotWorkInOneFolder) {
     Program waiting(study(file, results));
     EXPECT_FALSE(waiting.wait_until([&] { return !whole_cells(results).empty(); }, 0.5));
     ::close(fd);
-    EXPECT_EQ(waiting.wait(kPatience).code, 0);
+    EXPECT_EQ(waiting.wait(kSoon).code, 0);
 
     const int again = ::open(results.c_str(), O_RDONLY | O_CLOEXEC);
     ASSERT_EQ(::flock(again, LOCK_EX), 0);
-    const Ending ending = Program(study(file, results)).wait(kPatience);
+    const Ending ending = Program(study(file, results)).wait(kSoon);
     ::close(again);
     EXPECT_EQ(ending.code, 1) << ending.output;
     EXPECT_NE(ending.output.find("another study is at work"), std::string::npos) << ending.output;
@@ -166,11 +158,11 @@ TEST(StudyProgram, MeasuresAgainstAGivenImage) {
                                              (folder / "run").string(),
                                              "-o",
                                              (folder / "mine.exr").string()};
-    ASSERT_EQ(Program(render).wait(kPatience).code, 0);
+    ASSERT_EQ(Program(render).wait(kSoon).code, 0);
     for (const int ranks : {0, 2}) {
         const auto launcher = ranks == 0 ? std::vector<std::string>() : mpirun(ranks);
         const fs::path results = folder / ("results" + std::to_string(ranks));
-        const Ending ending = Program(launcher + study(write_study_with("mine.exr", folder), results)).wait(kPatience);
+        const Ending ending = Program(launcher + study(write_study_with("mine.exr", folder), results)).wait(kSoon);
         ASSERT_EQ(ending.code, 0) << ending.output;
         const nlohmann::json reference = read_json(results / "study.json")["scenes"][0]["reference"];
         EXPECT_EQ(reference["rendered"], false);
@@ -202,7 +194,7 @@ TEST(StudyProgram, RefusesAReferenceThatDoesNotFit) {
         Image image{20, height, {"R", "G", "B"}, std::vector<float>(static_cast<std::size_t>(3 * 20 * height), 1.0f)};
         image.data[7] = value;
         write_exr(folder / "bad.exr", image);
-        return Program(study(write_study_with("bad.exr", folder), folder / "results")).wait(kPatience);
+        return Program(study(write_study_with("bad.exr", folder), folder / "results")).wait(kSoon);
     };
     const Ending small = refusal(15, 1.0f);
     EXPECT_EQ(small.code, 2);
@@ -218,7 +210,7 @@ TEST(StudyProgram, RefusesAReferenceThatDoesNotFit) {
 TEST(StudyProgram, BadInputSaysWhere) {
     const fs::path folder = fresh_folder("study");
     std::ofstream(folder / "bad.toml") << "[scene.box]\nfile = \"none.xml\"\n";
-    const Ending ending = Program(study(folder / "bad.toml", folder / "results")).wait(kPatience);
+    const Ending ending = Program(study(folder / "bad.toml", folder / "results")).wait(kSoon);
     EXPECT_EQ(ending.code, 2);
     EXPECT_NE(ending.output.find("bad.toml:2:8: there is no file"), std::string::npos) << ending.output;
 }

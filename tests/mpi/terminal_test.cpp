@@ -13,11 +13,9 @@
 namespace treefarm::test {
 namespace {
 
-namespace fs = std::filesystem;
-
 const std::vector<std::string> kTerminal = {"TERM=xterm", "NO_COLOR"};
 
-std::vector<std::string> render(const std::vector<std::string>& options) {
+std::vector<std::string> shown_render(const std::vector<std::string>& options) {
     return std::vector<std::string>{TREEFARM_PROGRAM,
                                     "render",
                                     own_scene("cornell-box.xml"),
@@ -28,13 +26,6 @@ std::vector<std::string> render(const std::vector<std::string>& options) {
                                     "--run-dir",
                                     (fresh_folder("run") / "r").string()} +
            options;
-}
-
-std::size_t count(const std::string& text, const std::string& what) {
-    std::size_t found = 0;
-    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at)
-        ++found;
-    return found;
 }
 
 /// A program's output, as bytes and on a screen.
@@ -64,7 +55,7 @@ Shown watch(const std::vector<std::string>& arguments, int columns,
 
 TEST(Terminal, ProgressIsOneLineWhateverTheWidth) {
     for (const int columns : {80, 60, 40, 12, 0}) {
-        const Shown shown = watch(render({"--seconds", "2"}), columns);
+        const Shown shown = watch(shown_render({"--seconds", "2"}), columns);
         EXPECT_EQ(shown.code, 0);
         EXPECT_GE(shown.redraws(), 5u) << shown.screen.text();
         EXPECT_LE(shown.most_bars, 1) << columns << " columns:\n" << shown.screen.text();
@@ -75,12 +66,13 @@ TEST(Terminal, ProgressIsOneLineWhateverTheWidth) {
 
 TEST(Terminal, ProgressFollowsANewWidth) {
     bool resized = false;
-    const Shown shown = watch(render({"--seconds", "3"}), 80, kTerminal, [&](TerminalProgram& program, Shown& so_far) {
-        if (resized || so_far.redraws() < 5) return;
-        resized = true;
-        program.resize(50);
-        so_far.screen.resize(50);
-    });
+    const Shown shown =
+        watch(shown_render({"--seconds", "3"}), 80, kTerminal, [&](TerminalProgram& program, Shown& so_far) {
+            if (resized || so_far.redraws() < 5) return;
+            resized = true;
+            program.resize(50);
+            so_far.screen.resize(50);
+        });
     ASSERT_TRUE(resized);
     EXPECT_EQ(shown.code, 0);
     // One that was on its way may have wrapped.
@@ -88,7 +80,7 @@ TEST(Terminal, ProgressFollowsANewWidth) {
 }
 
 TEST(Terminal, APassIsALineOfAtMost80Columns) {
-    const Shown shown = watch(render({"--spp", "127"}), 200);
+    const Shown shown = watch(shown_render({"--spp", "127"}), 200);
     EXPECT_EQ(shown.code, 0);
     EXPECT_EQ(shown.screen.rows_with("pass "), 7) << shown.screen.text();
     EXPECT_EQ(shown.screen.rows_with("pass 7/7   127 spp   "), 1) << shown.screen.text();
@@ -101,19 +93,19 @@ TEST(Terminal, APassIsALineOfAtMost80Columns) {
 }
 
 TEST(Terminal, VerboseSaysEveryFigureThatIsKnown) {
-    const Shown shown = watch(render({"--spp", "7", "-v"}), 500);
+    const Shown shown = watch(shown_render({"--spp", "7", "-v"}), 500);
     EXPECT_EQ(shown.screen.rows_with("Mrays/s"), 3) << shown.screen.text();
     EXPECT_EQ(shown.screen.rows_with("stuv "), 2) << "one sample has no variance\n" << shown.screen.text();
     EXPECT_EQ(shown.screen.rows_with("stuv 0,"), 0) << shown.screen.text();
 }
 
 TEST(Terminal, QuietSaysNothing) {
-    EXPECT_EQ(watch(render({"--spp", "7", "-q"}), 80).bytes, "");
+    EXPECT_EQ(watch(shown_render({"--spp", "7", "-q"}), 80).bytes, "");
 }
 
 TEST(Terminal, ColoursGoByTheEnvironment) {
     // 5 spp become more: a warning, of which one word has a colour.
-    const auto warned = [] { return render({"--spp", "5", "--set", "guiding.spp_unit=4"}); };
+    const auto warned = [] { return shown_render({"--spp", "5", "--set", "guiding.spp_unit=4"}); };
     const std::string colour = "\x1b[1;33m";
     EXPECT_EQ(count(watch(warned(), 80).bytes, colour), 1u);
     EXPECT_EQ(count(watch(warned(), 80, {"TERM=xterm", "NO_COLOR="}).bytes, colour), 1u);
@@ -124,7 +116,7 @@ TEST(Terminal, ColoursGoByTheEnvironment) {
 
 TEST(Terminal, ADumbOneGetsWholeLines) {
     for (const std::vector<std::string>& environment : {std::vector<std::string>{"TERM=dumb"}, {"TERM"}}) {
-        const Shown shown = watch(render({"--seconds", "1.5"}), 80, environment);
+        const Shown shown = watch(shown_render({"--seconds", "1.5"}), 80, environment);
         EXPECT_EQ(shown.code, 0);
         EXPECT_EQ(count(shown.bytes, "\x1b"), 0u) << shown.bytes;
         EXPECT_EQ(count(shown.bytes, "\r"), count(shown.bytes, "\r\n")) << shown.bytes;
@@ -133,7 +125,7 @@ TEST(Terminal, ADumbOneGetsWholeLines) {
 }
 
 TEST(Terminal, UnderMpirunProgressIsAWholeLineNowAndThen) {
-    const Ending ending = Program(mpirun(2) + render({"--seconds", "12"})).wait(120);
+    const Ending ending = Program(mpirun(2) + shown_render({"--seconds", "12"})).wait(120);
     EXPECT_EQ(ending.code, 0) << ending.output;
     EXPECT_EQ(count(ending.output, "\x1b") + count(ending.output, "\r"), 0u) << ending.output;
     EXPECT_GE(count(ending.output, " % of 12 s   "), 1u) << ending.output;

@@ -9,8 +9,6 @@
 namespace treefarm::test {
 namespace {
 
-constexpr double kSoon = 60;  ///< seconds; what is meant is "not never"
-
 TEST(Usage, ARankWithABadOptionIsNamed) {
     const auto folder = fresh_folder("run");
     const std::vector<std::string> good = {
