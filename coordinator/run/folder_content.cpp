@@ -48,8 +48,8 @@ bool is_of_render_at_work(const std::string& name) {
     return false;
 }
 
-/// Content of a folder without a render's status. A run directory that was removed while it was rendered may hold what the
-/// render wrote meanwhile, and nothing else.
+/// Content of a folder without a render's status. A run directory that was removed while it was rendered may hold what
+/// the render wrote meanwhile, and nothing else.
 FolderContent content_without_status(const fs::path& folder) {
     const std::vector<fs::path> previous = previous_runs(folder);
     FolderContent content = FolderContent::nothing;

@@ -204,8 +204,8 @@ class MitsubaCures : public MitsubaFixture {
         const bool has_sensor = body.find("<sensor") != std::string::npos || body == "<integrator type=\"path\"/>";
         // Without an emitter a scene of 0.6 gets a sky, which takes longer to compute than all else.
         return std::string("<scene version=\"") + (version == '0' ? "0.6.0" : "3.0.0") + "\">" +
-               (version == '0' && body.find("<emitter") == std::string::npos ? "<emitter type=\"point\"/>" : "") + "\n" +
-               (has_sensor ? "" : "<sensor type=\"perspective\"/>\n") + body + "\n</scene>\n";
+               (version == '0' && body.find("<emitter") == std::string::npos ? "<emitter type=\"point\"/>" : "") +
+               "\n" + (has_sensor ? "" : "<sensor type=\"perspective\"/>\n") + body + "\n</scene>\n";
     }
 
     std::optional<InputError> refusal(const std::string& text, bool lenient = false) const {
