@@ -14,15 +14,15 @@
 namespace treefarm::test {
 namespace {
 
-std::vector<std::string> render(const std::string& scene, const std::filesystem::path& folder,
-                                const std::vector<std::string>& options = {}) {
+std::vector<std::string> render_to_end(const std::string& scene, const std::filesystem::path& folder,
+                                       const std::vector<std::string>& options = {}) {
     return std::vector<std::string>{TREEFARM_PROGRAM, "render", scene, "--run-dir", folder.string()} + options;
 }
 
 std::vector<std::string> long_render(const std::filesystem::path& folder, const std::string& spp) {
-    return render(own_scene("cornell-box.xml"), folder,
-                  {"-D", "size=64", "--spp", spp, "--threads", "1", "--set", "farm.heartbeat_seconds=0.2", "--set",
-                   "farm.update_seconds=0.05", "--set", "farm.tile_size=16"});
+    return render_to_end(own_scene("cornell-box.xml"), folder,
+                         {"-D", "size=64", "--spp", spp, "--threads", "1", "--set", "farm.heartbeat_seconds=0.2",
+                          "--set", "farm.update_seconds=0.05", "--set", "farm.tile_size=16"});
 }
 
 std::filesystem::path bad_scene() {
@@ -35,7 +35,7 @@ TEST(Ending, BadInputEndsWithCode2AndOneLine) {
     const auto scene = bad_scene();
     for (const int ranks : {0, 2, 4}) {
         const auto launcher = ranks == 0 ? std::vector<std::string>() : mpirun(ranks);
-        const Ending ending = Program(launcher + render(scene, fresh_folder("run"))).wait(kSoon);
+        const Ending ending = Program(launcher + render_to_end(scene, fresh_folder("run"))).wait(kSoon);
         EXPECT_FALSE(ending.timed_out) << ending.output;
         EXPECT_EQ(ending.code, 2) << ranks << " ranks: " << ending.output;
         EXPECT_EQ(count(ending.output, "treefarm: "), 1u) << ending.output;
@@ -78,8 +78,9 @@ TEST(Ending, ASignalKeepsFinishedPasses) {
 TEST(Ending, ALimitOfFileSizesIsLikeAFullDisk) {
     const auto folder = fresh_folder("run"), output = fresh_folder("out") / "small.png";
     std::string command = "ulimit -f 20; exec";  // KiB: image and films are larger, the picture is not
-    for (const std::string& word : render(own_scene("cornell-box.xml"), folder,
-                                          {"-D", "size=64", "--spp", "31", "--threads", "1", "-o", output.string()}))
+    for (const std::string& word :
+         render_to_end(own_scene("cornell-box.xml"), folder,
+                       {"-D", "size=64", "--spp", "31", "--threads", "1", "-o", output.string()}))
         command += " '" + word + "'";
     const Ending ending = Program({"/bin/bash", "-c", command}).wait(kSoon);
     EXPECT_EQ(ending.code, 1) << ending.output;

@@ -24,8 +24,8 @@ const std::string kSpp = "1016";  // some seconds
 const std::string kSpp = "252";
 #endif
 
-std::vector<std::string> render(const fs::path& folder, const std::vector<std::string>& options = {},
-                                const std::string& spp = kSpp) {
+std::vector<std::string> render_for_joiners(const fs::path& folder, const std::vector<std::string>& options = {},
+                                            const std::string& spp = kSpp) {
     return small_render(folder, spp, {"--set", "farm.heartbeat_seconds=0.2"}) + options;
 }
 
@@ -38,7 +38,7 @@ std::vector<std::string> join(const std::vector<std::string>& options) {
 const RunHashes& left_alone() {
     static const RunHashes truth = [] {
         const fs::path folder = fresh_folder("alone");
-        const Ending ending = Program(render(folder)).wait(kSoon);
+        const Ending ending = Program(render_for_joiners(folder)).wait(kSoon);
         EXPECT_EQ(ending.code, 0) << ending.output;
         EXPECT_FALSE(fs::exists(folder / kTicketFileName)) << "nobody asked for it";
         return hashes_of(folder);
@@ -75,7 +75,7 @@ void expect_done(const fs::path& folder, const Ending& ending) {
 TEST(Join, ARenderThatOthersJoinHasTheSameBits) {
     for (const bool mpi : {true, false}) {
         const fs::path folder = fresh_folder("run");
-        Program program((mpi ? mpirun(2) : std::vector<std::string>()) + render(folder, kJoinable));
+        Program program((mpi ? mpirun(2) : std::vector<std::string>()) + render_for_joiners(folder, kJoinable));
         const int moment = draw_moment();
         ASSERT_TRUE(program.wait_until([&] { return has_come_to(folder, moment); }, kSoon));
         Program guest(join({folder.string()}));
@@ -90,7 +90,7 @@ TEST(Join, ARenderThatOthersJoinHasTheSameBits) {
 
 TEST(Join, OneOfTwoIsKilledAndNothingElseHappens) {
     const fs::path folder = fresh_folder("run");
-    Program program(mpirun(2) + render(folder, kJoinable));
+    Program program(mpirun(2) + render_for_joiners(folder, kJoinable));
     const int moment = draw_moment();
     ASSERT_TRUE(program.wait_until([&] { return has_come_to(folder, moment); }, kSoon));
     Program killed(join({folder.string()})), other(join({folder.string()}));
@@ -105,7 +105,7 @@ TEST(Join, OneOfTwoIsKilledAndNothingElseHappens) {
 
 TEST(Join, WhoeverMayNotIsToldWhatToDoAndDisturbsNobody) {
     const fs::path folder = fresh_folder("run"), copy = fresh_folder("copy") / "join";
-    Program program(mpirun(2) + render(folder, kJoinable));
+    Program program(mpirun(2) + render_for_joiners(folder, kJoinable));
     ASSERT_TRUE(program.wait_until([&] { return has_come_to(folder, 0); }, kSoon));
     const auto refused = [](const std::vector<std::string>& options, const std::string& why) {
         const Ending ending = Program(join(options)).wait(kSoon);
@@ -137,7 +137,7 @@ TEST(Join, ACrowdOfStrangersKeepsNobodyOutAndTakesNoDescriptorOfTheFiles) {
     const fs::path folder = fresh_folder("run");
     std::vector<std::string> command =
         mpirun(2) + std::vector<std::string>{"sh", "-c", "ulimit -n 40; exec \"$@\"", "sh"};
-    Program program(command + render(folder, kJoinable));
+    Program program(command + render_for_joiners(folder, kJoinable));
     ASSERT_TRUE(program.wait_until([&] { return has_come_to(folder, 0); }, kSoon));
     const JoinTicket ticket = read_ticket(folder / kTicketFileName);
     std::atomic<bool> over = false;
@@ -163,7 +163,7 @@ TEST(Join, ACrowdOfStrangersKeepsNobodyOutAndTakesNoDescriptorOfTheFiles) {
 
 TEST(Join, AGuestThatIsToldToLeaveGivesBackWhatItHas) {
     const fs::path folder = fresh_folder("run");
-    Program program(render(folder, kJoinable));
+    Program program(render_for_joiners(folder, kJoinable));
     ASSERT_TRUE(program.wait_until([&] { return has_come_to(folder, 0); }, kSoon));
     Program two(join({"-n", "2", folder.string()}));
     ASSERT_TRUE(program.wait_until([&] { return workers_in(folder) == 3; }, kSoon));
@@ -179,7 +179,8 @@ TEST(Join, AGuestThatIsToldToLeaveGivesBackWhatItHas) {
 
 TEST(Join, AGuestComesBackToARenderThatWasStartedAgain) {
     const fs::path folder = fresh_folder("run");
-    const std::vector<std::string> command = render(folder, kJoinable + std::vector<std::string>{"--resume"});
+    const std::vector<std::string> command =
+        render_for_joiners(folder, kJoinable + std::vector<std::string>{"--resume"});
     auto first = std::make_unique<Program>(command);
     Program guest(join({folder.string(), "--wait", "30"}));  // before there is anything to join
     ASSERT_TRUE(first->wait_until([&] { return workers_in(folder) == 2 && passes_done(folder) >= 1; }, kSoon));
@@ -199,7 +200,8 @@ TEST(Join, WhereNobodyCanListenNothingIsRendered) {
                                    std::pair("farm.join_address=nowhere.invalid", "farm.join_address: ")}) {
         const fs::path folder = fresh_folder("run");
         const Ending ending =
-            Program(mpirun(2) + render(folder, kJoinable + std::vector<std::string>{"--set", set})).wait(kSoon);
+            Program(mpirun(2) + render_for_joiners(folder, kJoinable + std::vector<std::string>{"--set", set}))
+                .wait(kSoon);
         EXPECT_EQ(ending.code, 2) << ending.output;
         EXPECT_NE(ending.output.find(why), std::string::npos) << ending.output;
         EXPECT_EQ(passes_done(folder), 0);
@@ -208,7 +210,7 @@ TEST(Join, WhereNobodyCanListenNothingIsRendered) {
 
 TEST(Join, AGuestOfARenderThatIsKilledLeaves) {
     const fs::path folder = fresh_folder("run");
-    Program program(render(folder, kJoinable, "100000000"));
+    Program program(render_for_joiners(folder, kJoinable, "100000000"));
     ASSERT_TRUE(program.wait_until([&] { return has_come_to(folder, 0); }, kSoon));
     Program guest(join({folder.string(), "--wait", "1"}));
     ASSERT_TRUE(program.wait_until([&] { return workers_in(folder) == 2; }, kSoon));
@@ -225,7 +227,7 @@ TEST(Join, AGuestOfARenderThatIsKilledLeaves) {
 /// A guest whose connection is lost before the render tells it to leave.
 TEST(Join, AGuestThatWaitsLeavesWhenTheRenderIsOver) {
     const fs::path folder = fresh_folder("run");
-    Program program(render(folder, kJoinable, "100000000"));
+    Program program(render_for_joiners(folder, kJoinable, "100000000"));
     ASSERT_TRUE(program.wait_until([&] { return has_come_to(folder, 0); }, kSoon));
     Program guest(join({folder.string(), "--wait", "6000"}));
     ASSERT_TRUE(program.wait_until([&] { return workers_in(folder) == 2; }, kSoon));

@@ -10,7 +10,8 @@
 namespace treefarm::test {
 namespace {
 
-std::vector<std::string> render(const std::filesystem::path& folder, const std::vector<std::string>& options = {}) {
+std::vector<std::string> render_to_start(const std::filesystem::path& folder,
+                                         const std::vector<std::string>& options = {}) {
     return std::vector<std::string>{TREEFARM_PROGRAM,
                                     "render",
                                     own_scene("cornell-box.xml"),
@@ -33,7 +34,7 @@ TEST(Starting, AProcessThatNeverComesEndsTheJobWithAMessage) {
         for (const std::vector<std::string>& transport :
              {std::vector<std::string>{}, std::vector<std::string>{"--mca", "btl", "tcp,self"}}) {
             const auto folder = fresh_folder("run");
-            const Ending ending = Program(mpirun(2, {"--enable-recovery"}) + transport + render(folder) +
+            const Ending ending = Program(mpirun(2, {"--enable-recovery"}) + transport + render_to_start(folder) +
                                           std::vector<std::string>{":", "-n", "1", leaver})
                                       .wait(kSoon);
             EXPECT_FALSE(ending.timed_out) << ending.output;
@@ -45,7 +46,7 @@ TEST(Starting, AProcessThatNeverComesEndsTheJobWithAMessage) {
 TEST(Starting, ARankThatDiesInMpiInitEndsTheJobWithAMessage) {
     for (const int victim : {0, 1}) {
         // A process that takes part in nothing keeps the others in MPI_Init until it is killed there.
-        Program program(mpirun(2, {"--enable-recovery"}) + render(fresh_folder("run")) +
+        Program program(mpirun(2, {"--enable-recovery"}) + render_to_start(fresh_folder("run")) +
                         std::vector<std::string>{":", "-n", "1", "sleep", "20"});
         ASSERT_TRUE(program.wait_until([&] { return program.rank(victim) > 0 && program.rank(2) > 0; }, kSoon));
         kill(program.rank(victim), SIGKILL);
@@ -58,9 +59,10 @@ TEST(Starting, ARankThatDiesInMpiInitEndsTheJobWithAMessage) {
 
 TEST(Starting, TheHeadOfTheChainMayDieBeforeTheSceneIsSent) {
     const auto calm = fresh_folder("calm");
-    ASSERT_EQ(Program(render(calm)).wait(kSoon).code, 0);
+    ASSERT_EQ(Program(render_to_start(calm)).wait(kSoon).code, 0);
     const auto folder = fresh_folder("run");
-    Program program(mpirun(4, {"--enable-recovery"}) + render(folder, {"--set", "farm.heartbeat_seconds=0.2"}));
+    Program program(mpirun(4, {"--enable-recovery"}) +
+                    render_to_start(folder, {"--set", "farm.heartbeat_seconds=0.2"}));
     ASSERT_TRUE(program.wait_until([&] { return std::filesystem::exists(folder / "log.txt"); }, kSoon));
     kill(program.rank(1), SIGKILL);
     const Ending ending = program.wait(kSoon);
