@@ -61,11 +61,11 @@ void Farm::gather(const std::function<bool()>& interrupted) {
             there += expected == 0 ? member.state == MemberState::present : is_expected(peer);
         return there >= std::max<std::size_t>(1, expected);
     };
-    if (turn_.number > 0) {
-        tell_workers(channel_, Rejoin{turn_.number});
-        for (const int peer : channel_.peers())
+    if (turn_.number > 0)
+        for (const int peer : channel_.peers()) {
+            tell(peer, Rejoin{turn_.number});
             told_job_.insert(peer);
-    }
+        }
     const Timer timer;
     while (!all_are_there() && timer.seconds() < limits_.gather && !interrupted())
         step();
