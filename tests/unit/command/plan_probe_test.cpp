@@ -9,6 +9,7 @@
 #include "tests/support/command.h"
 #include "tests/support/mitsuba_fixture.h"
 #include "tests/support/support.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
@@ -29,7 +30,7 @@ bool holds(const json& figure, double value) {
 
 /// The summary of a render.
 json summary_of(const std::string& arguments) {
-    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "plan-probe-run";
+    const std::filesystem::path folder = test::test_folder() / "run";
     std::filesystem::remove_all(folder);
     const test::Ended ended = test::run_treefarm("render " + arguments + " --quiet --run-dir " + folder.string());
     EXPECT_EQ(ended.code, 0) << ended.output;
@@ -133,9 +134,7 @@ TEST(PlanProbe, WithoutOneOnlyTheRestIsKnown) {
 }
 
 TEST(PlanProbe, WritesNothing) {
-    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "plan-probe-here";
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
+    const std::filesystem::path folder = test::fresh_test_folder();
     const test::Ended ended = test::run_command("cd " + folder.string() + " && '" TREEFARM_PROGRAM "' plan " + kBox +
                                                 " --spp 500 --probe 0.05 --set output.file=image.exr");
     EXPECT_EQ(ended.code, 0) << ended.output;

@@ -18,6 +18,7 @@
 #include "coordinator/launch/start_command.h"
 #include "coordinator/run/folder_content.h"
 #include "coordinator/run/sign_of_life.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
@@ -174,10 +175,6 @@ TEST(HostPool, AHostThatLosesItsWorkersTwiceRestsForOneAttempt) {
 
 class SignOfLifeTest : public testing::Test {
   protected:
-    void SetUp() override {
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
-    }
     std::optional<LifeStatus> read() const {
         std::ifstream file(file_, std::ios::binary);
         return parse_life_status(std::string(std::istreambuf_iterator<char>(file), {}));
@@ -191,7 +188,7 @@ class SignOfLifeTest : public testing::Test {
         return std::nullopt;
     }
 
-    const fs::path folder_ = fs::path(testing::TempDir()) / "sign-of-life", file_ = folder_ / "status.json";
+    const fs::path folder_ = test::fresh_test_folder(), file_ = folder_ / "status.json";
 };
 
 TEST_F(SignOfLifeTest, BeatsByItselfAndTellsWhatItSees) {
