@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <mutex>
 
 namespace treefarm {
 
@@ -18,7 +19,13 @@ class FolderLock {
     /// Whether another program holds the lock. False on a file system without locks.
     bool refused() const { return refused_; }
 
+    /// Makes the folder again and locks it, if it has been removed or renamed since. Throws FileError if that fails, or
+    /// if another program has locked the new folder. May be called by several threads.
+    void renew();
+
   private:
+    const std::filesystem::path folder_;
+    std::mutex mutex_;  ///< of fd_ after construction
     int fd_;
     bool refused_ = false;
 };

@@ -22,9 +22,10 @@ constexpr double kPatience = 1.0;
 
 }  // namespace
 
-RunCheckpoints::RunCheckpoints(const std::filesystem::path& run, const Job& job, CheckpointOrigin origin,
-                               const LoadedCheckpoint* resumed)
+RunCheckpoints::RunCheckpoints(const std::filesystem::path& run, std::function<void()> renew, const Job& job,
+                               CheckpointOrigin origin, const LoadedCheckpoint* resumed)
     : folder_(run / kCheckpointFolder),
+      renew_(std::move(renew)),
       interval_(job.farm.checkpoint_seconds),
       keeps_(interval_ > 0 && job.output.keep_checkpoint),
       has_any_(interval_ > 0 || resumed),
@@ -44,6 +45,7 @@ void RunCheckpoints::offer(RenderState& state, double elapsed_seconds) {
     try {
         last_prepared_ = [this, write = store_.prepare(origin_of(state), state), passes = state.reports.size(),
                           number = prepared_ + 1] {
+            renew_();
             write();
             written_passes_ = passes;
             written_ = number;
@@ -75,6 +77,7 @@ std::string RunCheckpoints::finish(bool done) {
     const bool has_all = last_state_ && !last_state_->partial && written_passes_ >= last_state_->reports.size();
     if (has_all || (!last_state_ && !last_prepared_)) return "";
     std::vector<LastFile> file = {{folder_.string(), [this] {
+                                       renew_();
                                        if (last_state_)
                                            store_.write(origin_of(*last_state_), *last_state_);
                                        else

@@ -18,9 +18,10 @@ namespace treefarm {
 /// Checkpoints of one run: which passes are saved, in the background, and which checkpoint is kept at the end.
 class RunCheckpoints {
   public:
-    /// `origin`: that of every checkpoint, apart from the pixels. `resumed`: the checkpoint being resumed, or nullptr.
-    RunCheckpoints(const std::filesystem::path& run, const Job& job, CheckpointOrigin origin,
-                   const LoadedCheckpoint* resumed);
+    /// `renew`: makes the run directory again if it has been removed; throws if it cannot. `origin`: that of every
+    /// checkpoint, apart from the pixels. `resumed`: the checkpoint being resumed, or nullptr.
+    RunCheckpoints(const std::filesystem::path& run, std::function<void()> renew, const Job& job,
+                   CheckpointOrigin origin, const LoadedCheckpoint* resumed);
 
     /// Whether a checkpoint is due within a pass. False while one is being written, so that there are never three.
     bool is_due(double elapsed_seconds) const;
@@ -41,6 +42,7 @@ class RunCheckpoints {
     CheckpointOrigin origin_of(const RenderState& state) const;
 
     const std::filesystem::path folder_;
+    const std::function<void()> renew_;
     const double interval_;  ///< seconds between checkpoints; 0: none are written
     const bool keeps_;       ///< whether the last one is kept when the run is done
     const bool has_any_;     ///< whether a checkpoint exists, of this run or of the resumed one

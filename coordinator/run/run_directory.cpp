@@ -92,7 +92,8 @@ RunDirectory::RunDirectory(const Job& job, RunFacts facts, const EffectPlan& pla
       plan_text_(plan_text(plan, job.scene.file)),
       plan_json_(plan_json(plan, job.scene.file)),
       passes_csv_(pass_csv_header() + "\n"),
-      checkpoints_(path(), job, origin_of_checkpoints(), options.resumed) {
+      checkpoints_(
+          path(), [this] { folder_.renew(); }, job, origin_of_checkpoints(), options.resumed) {
     if (options.resumed) {
         if (newest_generation(path()) != options.resumed->newest)
             throw InputError(Location{path().string(), 0, 0}, "another process has resumed it meanwhile",
@@ -144,14 +145,8 @@ CheckpointOrigin RunDirectory::origin_of_checkpoints() const {
 }
 
 void RunDirectory::write_bytes(const std::string& name, std::span<const std::uint8_t> bytes, Outlives outlives) const {
-    try {
-        write_file_atomically(path() / name, bytes, outlives);
-    } catch (const FileError& error) {
-        std::error_code none;
-        if (error.code() != ENOENT || fs::exists(path(), none)) throw;
-        fs::create_directories(path(), none);
-        write_file_atomically(path() / name, bytes, outlives);
-    }
+    folder_.renew();
+    write_file_atomically(path() / name, bytes, outlives);
 }
 
 void RunDirectory::write_text(const std::string& name, const std::string& text, Outlives outlives) const {

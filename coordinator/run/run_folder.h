@@ -33,6 +33,9 @@ class RunFolder {
     RunFolder(const Job& job, FolderUse use, const std::function<bool()>& interrupted);
 
     const std::filesystem::path& path() const { return path_; }
+    /// Makes the folder again, locked, if it has been removed. Throws FileError if that fails, or if it belongs to
+    /// another program by then. May be called by several threads.
+    void renew() const { lock_.renew(); }
     /// Removes the files of this run, unless it resumed them, and restores those that it set aside.
     void give_back() const;
     /// Whether an earlier run is set aside.
@@ -47,7 +50,7 @@ class RunFolder {
 
     const FolderUse use_;
     std::filesystem::path path_, aside_;
-    FolderLock lock_;
+    mutable FolderLock lock_;
 };
 
 }  // namespace treefarm

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "common/base/files/atomic_file.h"
 #include "coordinator/run/folder_content.h"
 #include "tests/support/refusal.h"
 #include "tests/support/test_folder.h"
@@ -124,6 +125,28 @@ TEST(RunFolder, FramesThatWereRenderedOneByOneAreAShot) {
     write_run(folder / "frame.0007", "seventh");
     EXPECT_EQ(folder_content(folder), FolderContent::shot);
     EXPECT_NE(refusal(folder, true).find("holds a shot"), std::string::npos);
+}
+
+TEST(RunFolder, IsOneProgramsAlsoAfterItWasRemoved) {
+    const fs::path folder = test::fresh_test_folder();
+    const RunFolder run(job_in(folder), FolderUse::fresh, {});
+    fs::remove_all(folder);
+    run.renew();
+    EXPECT_TRUE(fs::is_directory(folder));
+    EXPECT_NE(refusal(folder, true).find("another render or study is at work"), std::string::npos);
+}
+
+TEST(RunFolder, IsTheOtherProgramsOnceItWasRemoved) {
+    const fs::path folder = test::fresh_test_folder();
+    const RunFolder run(job_in(folder), FolderUse::fresh, {});
+    fs::rename(folder, folder.string() + "-renamed");
+    {
+        const RunFolder other(job_in(folder), FolderUse::fresh, {});
+        EXPECT_THROW(run.renew(), FileError);
+    }
+    fs::remove_all(folder.string() + "-renamed");
+    run.renew();
+    EXPECT_NE(refusal(folder, true).find("another render or study is at work"), std::string::npos);
 }
 
 TEST(RunFolder, IsOnePrograms) {
