@@ -62,7 +62,7 @@ class Limit {
           facts_(facts_of(loaded.scene)),
           resolved_(resolve(job_, facts_)),
           first_(first_model(resolved_, bounds_, loaded.scene.radiance_scale())),
-          scene_(std::move(loaded.scene), job_),
+          scene_(std::move(loaded.scene), resolved_),
           spp_(options.spp),
           guide_(train()),
           untrained_(first_) {}

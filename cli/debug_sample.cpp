@@ -6,7 +6,6 @@
 #include <cstdio>
 
 #include "cli/render.h"
-#include "common/scene/pack/scene_codec.h"
 #include "coordinator/render/passes_alone.h"
 #include "worker/registry.h"
 #include "worker/tools/describe_sample.h"
@@ -63,7 +62,7 @@ void describe(const RenderRequest& request, const std::string& name, const TellM
     if (n[0] >= plans.size() || x >= film.width || y >= film.height || n[3] >= plans[n[0]].spp)
         refuse_location(request, plans, "sample");
     const auto [tree, pass] = model_and_pass(request, plans, n[0], tell);
-    const TraceScene scene(request.content.scene, request.content.job);
+    const TraceScene scene(request.content.scene, job);
     std::fputs(describe_sample(scene, job, pass, AnySampler(tree), x, y, n[3]).c_str(), stdout);
 }
 
@@ -76,7 +75,7 @@ void trace_tile(const RenderRequest& request, const std::string& name, const Tel
         n[5] >= plans[n[0]].chunks)
         refuse_location(request, plans, "tile");
     const auto [tree, pass] = model_and_pass(request, plans, n[0], tell);
-    const RenderUnit render = make_renderer(encode_scene(request.content.scene), request.content.plan.job);
+    const RenderUnit render = make_renderer(request.content.scene, request.content.plan.job);
     const AnySampler guide(tree);
     UnitOutput output;
     output.begin(guide.regions().distribution_count(), pass.layers.splats);

@@ -92,7 +92,7 @@ std::vector<double> next_event_parts(const RegionModel& regions) {
 
 void look(const InspectOptions& options, const InspectedRun& run, InspectReport& report) {
     const AnySampler guide(run.tree);
-    const TraceScene scene(run.request.content.scene, run.request.content.job);
+    const TraceScene scene(run.request.content.scene, run.request.content.plan.job);
     std::vector<NamedPoint> points;  // all of them are parsed before any is traced
     for (const std::string& pixel : options.pixels)
         points.push_back(named_pixel(pixel, scene, guide));

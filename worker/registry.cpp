@@ -7,8 +7,6 @@
 #include "common/base/timer.h"
 #include "common/config/aov_list.h"
 #include "common/config/estimators.h"
-#include "common/plan/resolve/resolve.h"
-#include "common/scene/pack/scene_codec.h"
 #include "worker/integrators/first_hit/first_hit.h"
 #include "worker/integrators/integrators.h"
 
@@ -80,14 +78,14 @@ std::span<const Integrator> integrators() {
     return kIntegrators;
 }
 
-const Integrator& integrator_of(const Job& job) {
+const Integrator& integrator_of(const std::string& type) {
     for (const Integrator& integrator : kIntegrators)
-        if (job.integrator.type == integrator.type) return integrator;
-    throw RunError("the program has no integrator \"" + job.integrator.type + "\"");
+        if (type == integrator.type) return integrator;
+    throw RunError("the program has no integrator \"" + type + "\"");
 }
 
 RenderUnit prepare(const Resolved& job, const std::shared_ptr<const TraceScene>& scene) {
-    const Integrator& integrator = integrator_of(job);
+    const Integrator& integrator = integrator_of(job.integrator.type);
     if (estimator_of(job.integrator.type).from != PathsFrom::both ||
         job.bidirectional.light_subpaths != Rule::while_it_pays)
         return integrator.prepare(scene, job);
@@ -97,15 +95,13 @@ RenderUnit prepare(const Resolved& job, const std::shared_ptr<const TraceScene>&
     };
 }
 
-RenderUnit make_renderer(std::span<const std::uint8_t> scene, const Job& job) {
-    Scene decoded = decode_scene(scene);
-    const Resolved resolved = resolve(job, decoded);
-    const Integrator& integrator = integrator_of(resolved);
-    const Camera camera = decoded.camera;
-    const auto trace_scene = std::make_shared<const TraceScene>(std::move(decoded), job);
-    const AovLayout layout(aov_requests(resolved));
+RenderUnit make_renderer(Scene scene, const Resolved& job) {
+    const Integrator& integrator = integrator_of(job.integrator.type);
+    const Camera camera = scene.camera;
+    const auto trace_scene = std::make_shared<const TraceScene>(std::move(scene), job);
+    const AovLayout layout(aov_requests(job));
     RenderUnit render =
-        layout.empty() ? prepare(resolved, trace_scene) : with_aovs(integrator, trace_scene, camera, resolved, layout);
+        layout.empty() ? prepare(job, trace_scene) : with_aovs(integrator, trace_scene, camera, job, layout);
     return [trace_scene, render = std::move(render)](const PassPlan& pass, const AnySampler& guide,
                                                      const WorkUnit& unit, UnitOutput& output) {
         check_unit(unit, pass, *trace_scene);

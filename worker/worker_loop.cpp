@@ -14,6 +14,7 @@
 #include "common/plan/forecast/memory.h"
 #include "common/protocol/fingerprint.h"
 #include "common/protocol/messages.h"
+#include "common/scene/pack/scene_codec.h"
 #include "worker/silence_watch.h"
 #include "worker/tracer_pool.h"
 #include "worker/work_prefetch.h"
@@ -284,8 +285,11 @@ class WorkerLoop {
         }
         if (!build_renderer_ || renderer_task_.valid() || retired_) return;
         build_renderer_ = false;
-        renderer_task_ = std::async(std::launch::async,
-                                    [make = make_renderer_, bytes = scene_, job = job_] { return make(*bytes, job); });
+        renderer_task_ = std::async(std::launch::async, [make = make_renderer_, bytes = scene_, job = job_] {
+            Scene scene = decode_scene(*bytes);
+            const Resolved resolved = resolve(job, scene);
+            return make(std::move(scene), resolved);
+        });
         if (!keep_scene_) scene_.reset();
     }
 

@@ -4,6 +4,7 @@
 #include <Random123/philox.h>
 
 #include <array>
+#include <concepts>
 #include <cstdint>
 
 namespace treefarm {
@@ -47,6 +48,16 @@ using Draw = std::array<std::uint32_t, 4>;
     const Philox::ctr_type r = Philox()(counter, key);
     return {r[0], r[1], r[2], r[3]};
 }
+
+/// Source of a path's random numbers: PathKey, or a Markov chain's state (Kelemen et al. 2002, "A simple and robust
+/// mutation strategy for the Metropolis light transport algorithm"). Its draw() gives four numbers for a vertex and a
+/// stream, always the same ones; `sample` chooses the half of the samples that splats are added to. Copied with splats.
+template <class N>
+concept Numbers = std::copyable<N> && requires(const N& numbers, std::uint32_t vertex, Stream stream) {
+    { draw(numbers, vertex, stream) } -> std::same_as<Draw>;
+    { numbers.pixel } -> std::convertible_to<std::uint32_t>;
+    { numbers.sample } -> std::convertible_to<std::uint32_t>;
+};
 
 /// Uniform float in [0, 1), never 1: the top 24 bits.
 inline float to_unit(std::uint32_t bits) {

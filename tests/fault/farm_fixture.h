@@ -14,6 +14,7 @@
 #include "common/base/hash.h"
 #include "common/comm/in_process_channel.h"
 #include "common/config/aov_list.h"
+#include "common/scene/pack/scene_codec.h"
 #include "coordinator/farm/farm.h"
 #include "coordinator/passes/pass_loop.h"
 #include "tests/support/fake_work.h"
@@ -23,7 +24,17 @@ namespace treefarm::test {
 
 inline constexpr int kWidth = 45, kHeight = 30;
 inline constexpr std::uint64_t kFingerprint = 7;
-inline const Bytes kScene(3'000'000, 42);  // three chunks
+
+/// A scene of three chunks, by an image that nothing uses.
+inline Scene long_scene() {
+    Scene scene;
+    TextureImage& image = scene.images.emplace_back();
+    image.width = image.height = 1000;
+    image.bytes.assign(3'000'000, 42);
+    return scene;
+}
+
+inline const Bytes kScene = encode_scene(long_scene());
 
 inline Job test_job() {
     Job job;
@@ -71,8 +82,8 @@ inline RenderUnit fake_renderer(const Job& job) {
 }
 
 inline MakeRenderer make_fake() {
-    return [](std::span<const std::uint8_t> scene, const Job& job) {
-        if (!std::equal(scene.begin(), scene.end(), kScene.begin(), kScene.end())) throw RunError("wrong scene");
+    return [](const Scene& scene, const Resolved& job) {
+        if (encode_scene(scene) != kScene) throw RunError("wrong scene");
         return fake_renderer(job);
     };
 }
@@ -80,7 +91,7 @@ inline MakeRenderer make_fake() {
 /// The fake renderer, but it waits with every unit until `flag` is up, at most so long: so that the fault under test
 /// comes to pass.
 inline MakeRenderer make_patient(const std::atomic<bool>& flag, int milliseconds = 20'000) {
-    return [&flag, milliseconds](std::span<const std::uint8_t>, const Job& job) -> RenderUnit {
+    return [&flag, milliseconds](const Scene&, const Resolved& job) -> RenderUnit {
         return [&flag, milliseconds, render = fake_renderer(job)](auto&... args) {
             for (int k = 0; k < milliseconds && !flag; ++k)
                 std::this_thread::sleep_for(std::chrono::milliseconds(1));

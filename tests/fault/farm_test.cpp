@@ -95,7 +95,7 @@ TEST_F(FarmTest, AWorkerThatWasThoughtLostJoinsAgain) {
     // The other worker waits for it to be back, so that there is something left to join. It itself is still tracing
     // when it is told to join again: that work was issued anew and must not be sent.
     renderers_[0] = make_patient(back);
-    renderers_[1] = [&](std::span<const std::uint8_t>, const Job& job) -> RenderUnit {
+    renderers_[1] = [&](const Scene&, const Resolved& job) -> RenderUnit {
         return [&, render = fake_renderer(job)](auto&... args) {
             for (int k = 0; k < 20'000 && !back && (k < 5 || faulty_[1]->cut); ++k)
                 std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -194,7 +194,7 @@ TEST_F(FarmTest, WithoutAUsableWorkerTheRunFailsWithTheReason) {
 
 TEST_F(FarmTest, AFailingWorkerIsReplacedAndTheLastOneEndsTheRun) {
     std::atomic<bool> failed = false;
-    const MakeRenderer broken = [&](std::span<const std::uint8_t>, const Job&) -> RenderUnit {
+    const MakeRenderer broken = [&](const Scene&, const Resolved&) -> RenderUnit {
         return [&](auto&...) {
             failed = true;
             throw RunError("the disk is on fire");
@@ -223,7 +223,7 @@ TEST_F(FarmTest, ALatecomerJoins) {
     job_.farm.heartbeat_seconds = 0.02;
     std::atomic<bool> started = false;
     std::atomic<int> work_of_latecomer = 0;
-    renderers_[0] = [&](std::span<const std::uint8_t>, const Job& job) -> RenderUnit {
+    renderers_[0] = [&](const Scene&, const Resolved& job) -> RenderUnit {
         return [&, render = fake_renderer(job)](auto&... args) {
             started = true;
             std::this_thread::sleep_for(std::chrono::milliseconds(10));

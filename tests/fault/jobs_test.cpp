@@ -65,7 +65,7 @@ TEST_F(JobsTest, ALostWorkerIsNotWaitedForAndMayComeBack) {
 
 TEST_F(JobsTest, AFailureEndsOneJobOnly) {
     make_workers(1);
-    renderers_[0] = [make = make_fake()](std::span<const std::uint8_t> scene, const Job& job) {
+    renderers_[0] = [make = make_fake()](const Scene& scene, const Resolved& job) {
         if (job.sampler.seed == 13) throw RunError("an unlucky seed");
         return make(scene, job);
     };

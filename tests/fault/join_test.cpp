@@ -66,7 +66,7 @@ class JoinTest : public FarmTest {
 
 /// Whether every one of `flags` is up.
 MakeRenderer make_waiting_for(std::atomic<int>& count, int enough) {
-    return [&count, enough](std::span<const std::uint8_t>, const Job& job) -> RenderUnit {
+    return [&count, enough](const Scene&, const Resolved& job) -> RenderUnit {
         return [&count, enough, render = fake_renderer(job)](auto&... args) {
             for (int k = 0; k < 20'000 && count < enough; ++k)
                 std::this_thread::sleep_for(std::chrono::milliseconds(1));

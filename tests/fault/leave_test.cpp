@@ -50,7 +50,7 @@ TEST_F(Leaving, WhatTakesTooLongIsGivenBack) {
     std::atomic<bool> given_back = false, never = false;
     settings_[0].threads = 1;
     settings_[0].told_to_leave = [this] { return told_.load(); };
-    renderers_[0] = [&](std::span<const std::uint8_t>, const Job& job) -> RenderUnit {
+    renderers_[0] = [&](const Scene&, const Resolved& job) -> RenderUnit {
         return [&, render = fake_renderer(job)](auto&... args) {
             told_ = true;
             for (int k = 0; k < 20'000 && !given_back; ++k)

@@ -43,7 +43,7 @@ class Resume : public FarmTest {
         faulty_[1]->outgoing = [pass](Bytes& bytes) {
             return !is<Result>(bytes) || std::get<Result>(decode(bytes)).pass != pass;
         };
-        renderers_[0] = [&](std::span<const std::uint8_t>, const Job& job) -> RenderUnit {
+        renderers_[0] = [&](const Scene&, const Resolved& job) -> RenderUnit {
             return [&second_has, pass, render = fake_renderer(job)](const PassPlan& plan, auto&... args) {
                 for (int k = 0; k < 20'000 && plan.index == pass && !second_has.at(pass); ++k)
                     std::this_thread::sleep_for(std::chrono::milliseconds(1));

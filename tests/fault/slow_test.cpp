@@ -8,7 +8,7 @@ namespace {
 /// The fake renderer, but `before(unit)` comes first.
 template <class Before>
 MakeRenderer make_hindered(Before before) {
-    return [before](std::span<const std::uint8_t>, const Job& job) -> RenderUnit {
+    return [before](const Scene&, const Resolved& job) -> RenderUnit {
         return [before, render = fake_renderer(job)](const PassPlan& pass, const AnySampler& guide,
                                                      const WorkUnit& unit, UnitOutput& output) {
             before(unit);

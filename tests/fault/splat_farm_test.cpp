@@ -94,7 +94,7 @@ TEST_F(SplatFarmTest, AKilledWorkersSplatsAreMadeAgainAndNoneCountsTwice) {
     settings_[0].silence_seconds = 1.0;
     std::atomic<bool> cut = false;
     // After the first pass, to which all contribute, the others wait until it is gone.
-    renderers_[1] = renderers_[2] = [&](std::span<const std::uint8_t>, const Job& job) -> RenderUnit {
+    renderers_[1] = renderers_[2] = [&](const Scene&, const Resolved& job) -> RenderUnit {
         return [&, render = fake_renderer(job)](const PassPlan& pass, auto&... args) {
             for (int k = 0; k < 20'000 && !cut && pass.index > 0; ++k)
                 std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -4,6 +4,7 @@
 
 #include "common/base/hash.h"
 #include "common/guiding/sd_tree/sd_tree.h"
+#include "common/scene/pack/scene_codec.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/message_script.h"
 #include "tests/support/fake_work.h"
@@ -18,7 +19,7 @@ namespace {
 
 constexpr int kPeers = 4, kSelf = 1;
 constexpr std::uint32_t kSize = 12;
-const Bytes kScene(5000, 1);
+const Bytes kScene = encode_scene(Scene());
 
 void require(bool condition, const char* what) {
     if (condition) return;
@@ -99,8 +100,7 @@ class ScriptedChannel final : public Channel {
     std::uint64_t sent_ = 0, messages_ = 0, messages_sent_ = 0;
 };
 
-RenderUnit make_renderer(std::span<const std::uint8_t> scene, const Job& job) {
-    if (!std::equal(scene.begin(), scene.end(), kScene.begin(), kScene.end())) throw RunError("wrong scene");
+RenderUnit make_renderer(const Scene&, const Resolved& job) {
     return [render = test::fake_renderer(job.sampler.seed, kSize)](const PassPlan& pass, const AnySampler& guide,
                                                                    const WorkUnit& unit, auto&... out) {
         const std::uint64_t paths = std::uint64_t{pass.units.light_paths} * pass.layers.splats.pixels;

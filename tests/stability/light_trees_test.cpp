@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "common/math/warp.h"
+#include "common/plan/resolve/resolve.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/test_scenes.h"
 #include "worker/lights/light_tree.h"
@@ -247,7 +248,7 @@ TEST(LightTrees, IrradianceOfAHallFromAfar) {
                         kNone, Rgb(std::pow(10.0f, static_cast<float>(i % 7) - 3.0f)));
     Job job;
     job.integrator.light_selection = LightSelection::tree;
-    const TraceScene lit(scene, job);
+    const TraceScene lit(scene, resolve(job, scene));
     test::Worst worst;
     for (const float away : {0.1f, 1.0f, 1e3f, 1e6f}) {
         const Vec3 p(0.3f * away, 0.1f, -away), up(0, 0, 1);

@@ -28,7 +28,7 @@ const ScaleAndOffset kScalesAndOffsets[] = {{1e-4f, Vec3(0.0f)},
                                             {1e5f, Vec3(1000.0f, 1000.0f, 1000.0f)}};
 
 std::vector<PixelEstimate> render(const Scene& scene, const Job& job, std::uint32_t spp, bool next_event) {
-    const TraceScene trace(scene, job);
+    const TraceScene trace(scene, resolve(job, scene));
     const SdTreeSampler guide(initial_tree(scene.bounds(), 1.0f));
     PassPlan pass;
     pass.spp = spp;

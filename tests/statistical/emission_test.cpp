@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "common/plan/resolve/resolve.h"
 #include "tests/support/chi_square.h"
 #include "tests/support/test_scenes.h"
 #include "worker/scene/trace_scene.h"
@@ -190,7 +191,7 @@ TEST(EmissionPower, IsTheMeanWeight) {
     int compared = 0;
     for (const EmissionCase& given : emission_cases()) {
         if (given.power == 0) continue;
-        const TraceScene scene(given.scene, Job());
+        const TraceScene scene(given.scene, resolve(Job(), given.scene));
         constexpr std::uint32_t kSamples = 100'000;
         Sum power;
         for (std::uint32_t i = 0; i < kSamples; ++i)
@@ -207,7 +208,7 @@ TEST(EmissionPower, IsTheMeanWeight) {
 /// and where they go.
 TEST_P(EveryKind, RaysBringWhatNextEventFinds) {
     const EmissionCase given = emission_cases()[GetParam()];
-    const TraceScene scene(given.scene, Job());
+    const TraceScene scene(given.scene, resolve(Job(), given.scene));
     constexpr std::uint32_t kSamples = 200'000;
     std::array<Sum, kCells * kCells> by_rays, by_next_event;
     for (std::uint32_t i = 0; i < kSamples; ++i) {
@@ -249,7 +250,7 @@ TEST_P(EveryKind, DensitiesAgree) {
     const EmissionCase given = emission_cases()[GetParam()];
     Job job;
     job.integrator.light_selection = LightSelection::power;  // as emission does
-    const TraceScene scene(given.scene, job);
+    const TraceScene scene(given.scene, resolve(job, given.scene));
     const Emitters& emitters = scene.emitters();
     int compared = 0;
     for (std::uint32_t i = 0; i < 3000; ++i) {
@@ -302,7 +303,7 @@ const EmissionCase& named(const std::string& name) {
 }
 
 void expect_directions(const std::string& name, const std::function<double(const Vec3&)>& density) {
-    const TraceScene scene(named(name).scene, Job());
+    const TraceScene scene(named(name).scene, {});
     const auto result = test::test_directions(
         [&](std::uint32_t i, Vec3& d) {
             const EmissionSample start = emit(scene, i);
@@ -322,12 +323,12 @@ TEST(EmissionDirections, FollowTheirDensity) {
     expect_directions("wide spot", [&](const Vec3& d) {
         return dot(d, axis) > std::cos(2.5f) ? 1.0 / (4 * kPiD * std::pow(std::sin(1.25), 2)) : 0.0;
     });
-    const TraceScene sky(named("image").scene, Job());
+    const TraceScene sky(named("image").scene, {});
     expect_directions("image", [&](const Vec3& d) { return double(sky.emitters().emission_density(-d).position); });
 }
 
 TEST(EmissionDirections, OfAProjectorAreUniformOnItsPicture) {
-    const TraceScene scene(named("projector").scene, Job());
+    const TraceScene scene(named("projector").scene, {});
     constexpr std::uint32_t kSamples = 50'000;
     std::vector<double> counts(20), expected(20, kSamples / 20.0);
     for (std::uint32_t i = 0; i < kSamples; ++i) {
@@ -345,7 +346,7 @@ TEST(EmissionDirections, OfAProjectorAreUniformOnItsPicture) {
 TEST(Emission, WithoutSurfacesThereIsNone) {
     Scene scene;
     scene.emitters.push_back({ConstantEmitter{Rgb(1.0f)}, {}});
-    EXPECT_EQ(emit(TraceScene(scene, Job()), 0).from, EmissionFrom::nothing);
+    EXPECT_EQ(emit(TraceScene(scene, {}), 0).from, EmissionFrom::nothing);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "common/base/random.h"
+#include "common/plan/resolve/resolve.h"
 #include "tests/support/chi_square.h"
 #include "tests/support/light_checks.h"
 #include "tests/support/material_scenes.h"
@@ -119,7 +120,7 @@ Mesh panel(int side, const Vec3& corner, float size) {
 
 TEST(LightDistribution, PanelInPatches) {
     expect_light_distribution(only_light(panel(20, {-1.5f, -1, 0.7f}, 3.0f)), Vec3(0.0f), "panel");
-    const TraceScene lights(only_light(panel(20, {-1.5f, -1, 0.7f}, 3.0f)), Job());
+    const TraceScene lights(only_light(panel(20, {-1.5f, -1, 0.7f}, 3.0f)), {});
     EXPECT_GT(lights.emitters().choice().node_count(), 8u) << "near patches are chosen more often than far ones";
 }
 
@@ -135,7 +136,7 @@ void expect_batches_as_alone(LightSelection how, int more_lamps) {
         add_shape(scene, quad({float(i), 4, float(i % 7)}, {0, 0, 0.5f}, {0.5f, 0, 0}), kNone, Rgb(float(1 + i % 3)));
     Job job;
     job.integrator.light_selection = how;
-    const TraceScene lights(scene, job);
+    const TraceScene lights(scene, resolve(job, scene));
     const Emitters& emitters = lights.emitters();
     ASSERT_TRUE(emitters.draws_together());
     EXPECT_EQ(emitters.choice().node_count() > 0, more_lamps > 0 && LightChoice::by_point(how));
@@ -217,7 +218,7 @@ TEST(LightChoice, ChangesNoIntegral) {
              {LightSelection::power, LightSelection::even, LightSelection::tree, LightSelection::learned}) {
             Job job;
             job.integrator.light_selection = how;
-            const TraceScene lights(scene, job);
+            const TraceScene lights(scene, resolve(job, scene));
             const Emitters& emitters = lights.emitters();
             const LightReceiver at(p, how == LightSelection::learned ? &learned : nullptr, &front);
             double sum = 0, sum2 = 0;
@@ -264,7 +265,7 @@ TEST(LightChoice, IsByPower) {
     const double total = std::accumulate(power.begin(), power.end(), 0.0);
     Job job;
     job.integrator.light_selection = LightSelection::power;
-    const TraceScene lights(scene, job);
+    const TraceScene lights(scene, resolve(job, scene));
     const Vec3 p(0.2f, 0.1f, -0.3f);
     constexpr std::uint32_t kSamples = 100000;
     std::vector<double> counts(power.size()), expected;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/random.h"
+#include "common/plan/resolve/resolve.h"
 #include "tests/support/light_checks.h"
 #include "tests/support/material_scenes.h"
 #include "tests/support/test_scenes.h"
@@ -76,7 +77,7 @@ TEST(Projector, IsChosenByWhatItThrows) {
     thrown.scene.emitters.push_back({PointEmitter{Vec3(5, 5, 5), Rgb(2.0f)}, {}});
     Job job;
     job.integrator.light_selection = LightSelection::power;
-    const TraceScene lights(thrown.scene, job);
+    const TraceScene lights(thrown.scene, resolve(job, thrown.scene));
     // Means of cells of equal area, at distance 1: 4 * 0.6 * 0.3 m^2 under 5 times the mean of 1 to 8.
     const double watts = 4 * 0.6 * 0.3 * 5 * 4.5, other = 4 * M_PI * 2, expected = watts / (watts + other);
     const Vec3 p = thrown.point(0.3f, 0.3f);

@@ -9,7 +9,6 @@
 #include "common/film/aov_film.h"
 #include "common/plan/schedule/kernel.h"
 #include "common/plan/schedule/learning.h"
-#include "common/scene/pack/scene_codec.h"
 #include "tests/support/material_scenes.h"
 #include "worker/registry.h"
 
@@ -45,7 +44,7 @@ inline Layers render_layers(const Scene& scene, const std::string& aovs, const s
     job.guiding.type = GuidingType::none;
     job.output.aovs = aovs;
     const Resolved resolved = resolve(job, scene);
-    const RenderUnit renderer = make_renderer(encode_scene(scene), resolved);
+    const RenderUnit renderer = make_renderer(scene, resolved);
     const AnyModel tree = first_model(resolved, scene.bounds(), 1.0f);
     const AnySampler guide(tree);
     const int width = scene.film.width, height = scene.film.height;

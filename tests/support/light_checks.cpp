@@ -5,6 +5,7 @@
 
 #include "common/math/frame.h"
 #include "common/math/warp.h"
+#include "common/plan/resolve/resolve.h"
 #include "tests/support/chi_square.h"
 #include "worker/integrators/subpath/mis.h"
 #include "worker/scene/trace_scene.h"
@@ -22,7 +23,7 @@ Rgb arriving(const Emitters& emitters, const DirectSample& s) {
 }  // namespace
 
 void expect_light_distribution(const Scene& scene, const Vec3& p, const std::string& what, float min_cosine) {
-    const TraceScene lights(scene, Job());
+    const TraceScene lights(scene, {});
     const auto sample = [&](std::uint32_t i, Vec3& d) {
         const DirectSample s = lights.emitters().sample_direct(p, draw({3, i, 0}, 1, Stream::light));
         d = s.wi;
@@ -46,7 +47,7 @@ void expect_light_distribution(const Scene& scene, const Vec3& p, const std::str
 }
 
 Irradiance irradiance(const Scene& scene, const Vec3& p, const Vec3& n, std::uint32_t samples) {
-    const TraceScene lights(scene, Job());
+    const TraceScene lights(scene, {});
     const Emitters& emitters = lights.emitters();
     const Frame frame(n);
     double sums[4] = {0, 0, 0, 0};

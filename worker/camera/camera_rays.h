@@ -25,7 +25,8 @@ class CameraRays {
           is_perspective_(!camera.is_orthographic() && !camera.panoramic) {}
 
     /// Camera ray of a path through pixel (x, y) of the window; y points down.
-    Ray generate(int x, int y, const PathKey& path) const {
+    template <Numbers N = PathKey>
+    Ray generate(int x, int y, const N& path) const {
         // Lens sampling is out of line: a pinhole pays neither for its random numbers nor for its registers.
         if (has_lens_) [[unlikely]]
             return through_lens(x, y, path);
@@ -43,7 +44,8 @@ class CameraRays {
     }
 
     /// Weight of a path's sample: 1 unless the filter has negative lobes.
-    float weight(const PathKey& path) const {
+    template <Numbers N = PathKey>
+    float weight(const N& path) const {
         const Draw random = draw(path, 0, Stream::camera);
         return filter_.weight(random[0]) * filter_.weight(random[1]);
     }
@@ -86,7 +88,7 @@ class CameraRays {
         return ray(camera_.origin + shift, Vec3(d * (1.0 / std::sqrt(d.dot(d)))));
     }
 
-    [[gnu::noinline]] Ray through_lens(int x, int y, const PathKey& path) const {
+    [[gnu::noinline]] Ray through_lens(int x, int y, const Numbers auto& path) const {
         return generate(x, y, draw(path, 0, Stream::camera));
     }
 
@@ -106,7 +108,7 @@ class CameraRays {
     }
 
     /// Ray of an orthographic or panoramic camera.
-    [[gnu::noinline]] Ray elsewhere(int x, int y, const PathKey& path) const {
+    [[gnu::noinline]] Ray elsewhere(int x, int y, const Numbers auto& path) const {
         return generate(x, y, draw(path, 0, Stream::camera));
     }
 

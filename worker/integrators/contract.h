@@ -6,9 +6,9 @@
 #include <memory>
 #include <span>
 
-#include "common/config/job.h"
 #include "common/film/work_unit.h"
 #include "common/guiding/any_guide.h"
+#include "common/plan/resolve/resolve.h"
 #include "common/plan/schedule/schedule.h"
 #include "worker/integrators/unit_output.h"
 #include "worker/scene/trace_scene.h"
@@ -19,8 +19,8 @@ namespace treefarm {
 /// at once with different outputs, each cleared by its caller.
 using RenderUnit = std::function<void(const PassPlan&, const AnySampler&, const WorkUnit&, UnitOutput&)>;
 
-/// Decodes the scene, prepares the integrator; once per job, may take seconds.
-using MakeRenderer = std::function<RenderUnit(std::span<const std::uint8_t> scene, const Job&)>;
+/// Preparation of a scene and of a job that is resolved for it; once per job, may take seconds.
+using MakeRenderer = std::function<RenderUnit(Scene, const Resolved&)>;
 
 /// An estimator: its name, and the function that prepares it for a scene and a job. Its capabilities are stated in its
 /// own folder; no code outside worker/integrators names an estimator.

@@ -10,7 +10,7 @@ namespace treefarm {
 namespace {
 
 /// Whether the scene's surfaces are all plainly diffuse, or no other kernels are compiled.
-bool traced_plainly(const Scene& scene, const Job& job) {
+bool traced_plainly(const Scene& scene, const Resolved& job) {
     return is_plainly_diffuse(scene) && has_plain_kernels(guide_kind(job));
 }
 
@@ -39,7 +39,7 @@ std::vector<FloatInput> shape_opacity(const Scene& scene) {
 }
 
 /// Shapes that camera rays pass since they are hidden emitters; empty if there are none.
-std::vector<bool> hidden_shapes(const Scene& scene, const Job& job) {
+std::vector<bool> hidden_shapes(const Scene& scene, const Resolved& job) {
     std::vector<bool> hidden;
     if (!job.integrator.hide_emitters || !scene.camera.passes_hidden_emitters) return hidden;
     for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
@@ -50,17 +50,17 @@ std::vector<bool> hidden_shapes(const Scene& scene, const Job& job) {
     return hidden;
 }
 
-std::optional<MaterialSet> make_materials(const Scene& scene, const Job& job, const TextureSet& textures) {
+std::optional<MaterialSet> make_materials(const Scene& scene, const Resolved& job, const TextureSet& textures) {
     if (traced_plainly(scene, job)) return std::nullopt;
     return std::optional<MaterialSet>(std::in_place, scene, textures);
 }
 
 }  // namespace
 
-TraceScene::TraceScene(Scene scene, const Job& job)
+TraceScene::TraceScene(Scene scene, const Resolved& job)
     : TraceScene(std::move(scene), {shape_opacity(scene), hidden_shapes(scene, job)}, job) {}
 
-TraceScene::TraceScene(Scene&& scene, ShapeMasks masks, const Job& job)
+TraceScene::TraceScene(Scene&& scene, ShapeMasks masks, const Resolved& job)
     : effects_(find_scene_effects(scene, job)),
       film_(scene.film),
       camera_(scene.camera, scene.film),

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "common/config/job.h"
 #include "common/plan/effects/scene_effects.h"
+#include "common/plan/resolve/resolve.h"
 #include "common/scene/model/scene.h"
 #include "worker/camera/camera_rays.h"
 #include "worker/lights/emitters.h"
@@ -19,7 +19,7 @@ class TraceScene {
   public:
     /// Builds the hierarchy and the light tables; the film is the scene's. Throws RunError if Embree fails, or if the
     /// scene needs an effect that the program was built without.
-    TraceScene(Scene scene, const Job& job);
+    TraceScene(Scene scene, const Resolved& job);
 
     const EmbreeScene& geometry() const { return geometry_; }
     const Emitters& emitters() const { return emitters_; }
@@ -37,7 +37,7 @@ class TraceScene {
 
   private:
     /// `masks`: without textures. Moves the scene's parts out.
-    TraceScene(Scene&& scene, ShapeMasks masks, const Job& job);
+    TraceScene(Scene&& scene, ShapeMasks masks, const Resolved& job);
 
     SceneEffects effects_;
     Film film_;

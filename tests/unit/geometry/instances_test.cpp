@@ -129,7 +129,7 @@ TEST(Instances, LookLikeTheFlattenedMeshes) {
     job.integrator.rr_depth = 100;
     const auto render = [&](bool instances) {
         const Scene scene = make_scene(instances);
-        const TraceScene trace(scene, job);
+        const TraceScene trace(scene, resolve(job, scene));
         const SdTreeSampler guide(initial_tree(scene.bounds(), 1.0f));
         PassPlan pass;
         pass.spp = 32;

@@ -49,7 +49,7 @@ TEST(EstimatorList, SaysWhoTeachesATree) {
         pass.kernel = kernel_of(resolved, pass, facts_of(tree));
         UnitOutput output;
         output.begin(guide.regions().distribution_count(), pass.layers.splats);
-        make_renderer(encode_scene(scene), resolved)(pass, guide, cut_pass(pass, 8, 8, 8)[0], output);
+        make_renderer(scene, resolved)(pass, guide, cut_pass(pass, 8, 8, 8)[0], output);
         EXPECT_EQ(!output.log.records.empty(), estimator.guides) << estimator.type;
     }
 }

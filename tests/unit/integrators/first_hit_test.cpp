@@ -196,7 +196,7 @@ TEST(DirectLight, IsPartOfEachGuidedSample) {
     ASSERT_TRUE(learned.tree().trained);
     job.output.aovs = "direct";
     const Resolved resolved = resolve(job, scene);
-    const RenderUnit renderer = make_renderer(encode_scene(scene), resolved);
+    const RenderUnit renderer = make_renderer(scene, resolved);
     const SdTreeSampler guide(learned.tree());
     for (const bool next_event : {true, false}) {
         PassPlan pass = one_pass(8);

@@ -17,7 +17,6 @@
 #include "common/plan/effects/plan_text.h"
 #include "common/plan/schedule/kernel.h"
 #include "common/plan/schedule/learning.h"
-#include "common/scene/pack/scene_codec.h"
 #include "tests/support/guide_types.h"
 #include "tests/support/local_render.h"
 #include "tests/support/test_scenes.h"
@@ -74,7 +73,7 @@ TEST(Estimators, OfJobsAndWorkersAreTheSame) {
     for (std::size_t i = 0; i < estimators().size(); ++i)
         EXPECT_STREQ(integrators()[i].type, estimators()[i].type);
     EXPECT_EQ(find_estimator("nonsense"), nullptr);
-    EXPECT_THROW(integrator_of(job_of("nonsense")), RunError);
+    EXPECT_THROW(integrator_of("nonsense"), RunError);
     EXPECT_EQ(Job().integrator.type, estimators()[0].type) << "the usual one comes first";
 }
 
@@ -263,9 +262,8 @@ TEST(Guides, AModelOfAnotherGuideThanTheJobsIsRefused) {
     Scene scene = floor_from_above();
     scene.emitters.push_back({PointEmitter{{0.6f, 0.8f, 0.0f}, Rgb(3.0f)}, {}});
     for (const bool own : {false, true}) {
-        const Job job = job_of("path");
-        const Resolved resolved = resolve(job, scene);
-        const RenderUnit render = make_renderer(encode_scene(scene), job);
+        const Resolved resolved = resolve(job_of("path"), scene);
+        const RenderUnit render = make_renderer(scene, resolved);
         const auto kind =
             own ? guide_kind(resolved) : static_cast<GuideKind>(1 - static_cast<int>(guide_kind(resolved)));
         const AnyModel model = AnyModel::first(kind, scene.bounds(), {});

@@ -41,7 +41,7 @@ struct Rendered {
 
 Rendered render(const Scene& scene, const Job& job, const PassPlan& pass) {
     Rendered r;
-    const TraceScene trace(scene, job);
+    const TraceScene trace(scene, resolve(job, scene));
     const SdTreeSampler guide(initial_tree(scene.bounds(), 1.0f));
     const WorkUnit unit{
         pass.index, 0, 0, static_cast<std::uint16_t>(scene.film.width), static_cast<std::uint16_t>(scene.film.height),
@@ -287,7 +287,7 @@ TEST(Path, AUnitDoesNotDependOnHowTheImageIsCut) {
     Scene scene = test::cornell_box(1.0f, Vec3(0.0f));
     test::set_film(scene, 12, 10);
     const Job job = unguided();
-    const TraceScene trace(scene, job);
+    const TraceScene trace(scene, resolve(job, scene));
     const SdTreeSampler guide(initial_tree(scene.bounds(), 1.0f));
     const PassPlan pass = one_pass(70, true);
     const Rendered whole = render(scene, job, pass);
@@ -354,7 +354,7 @@ TEST(Path, LightsWithoutExtentShineWithoutNextEvent) {
 TEST(Path, VerticesOutsideTheTreeAreCounted) {
     Scene scene = test::furnace(0.5f, 1.0f, 2.0f, Vec3(0.0f));
     const Job job;
-    const TraceScene trace(scene, job);
+    const TraceScene trace(scene, resolve(job, scene));
     const SdTreeSampler small(initial_tree(Box3(Vec3(-0.5f), Vec3(0.5f)), 1.0f));
     std::vector<PixelEstimate> pixels;
     RecordLog log;
@@ -371,7 +371,7 @@ TEST(Path, DescriptionTellsTheSamePath) {
     const PassPlan pass = one_pass(1, true);
     const Rendered r = render(scene, job, pass);
     const SdTreeSampler guide(initial_tree(scene.bounds(), 1.0f));
-    const std::string text = test::describe_sample(TraceScene(scene, job), job, pass, guide, 0, 0, 0);
+    const std::string text = test::describe_sample(TraceScene(scene, resolve(job, scene)), job, pass, guide, 0, 0, 0);
     EXPECT_NE(text.find("depth 1: shape \""), std::string::npos) << text;
     EXPECT_NE(text.find("end: "), std::string::npos) << text;
     std::size_t depths = 0;

@@ -103,7 +103,7 @@ TEST(SplitGlass, IsTheSameHoweverTheImageIsCut) {
     pass.spp = 70;
     pass.next_event = pass.record = true;
     pass.blocks_per_unit = 64;
-    const TraceScene trace(scene, job);
+    const TraceScene trace(scene, resolve(job, scene));
     const SdTreeSampler guide(initial_tree(scene.bounds(), 1.0f));
     const auto render = [&](const WorkUnit& unit, RecordLog& log) {
         std::vector<PixelEstimate> pixels;
@@ -212,7 +212,7 @@ TEST(PathKernel, APathDoesNotDependOnOthers) {
     pass.next_event = true;
     pass.blocks_per_unit = 64;
     const SdTreeSampler guide(initial_tree(scene.bounds(), 1.0f));
-    const TraceScene prepared(scene, job);
+    const TraceScene prepared(scene, resolve(job, scene));
     for (const bool record : {false, true}) {
         pass.record = record;
         Traced together = trace(prepared, job, pass, guide, {pass.index, 0, 0, 16, 16, 0});

@@ -132,7 +132,7 @@ class SplittingInARoom : public ::testing::Test {
 
     Rendered render(const Job& job, const WorkUnit& unit) const {
         Rendered r;
-        const TraceScene trace(scene_, job);
+        const TraceScene trace(scene_, resolve(job, scene_));
         test::render_unit(trace, job, pass_, SdTreeSampler(tree_), unit, r.pixels, r.log, r.stats);
         return r;
     }
@@ -212,7 +212,7 @@ TEST_F(SplittingInARoom, UnsplitSamplesAreThoseOfPathsThatAreNotSplit) {
 }
 
 TEST_F(SplittingInARoom, IsToldByDescribeSample) {
-    const TraceScene trace(scene_, job_);
+    const TraceScene trace(scene_, resolve(job_, scene_));
     const SdTreeSampler guide(tree_);
     for (std::uint32_t sample = 0; sample < pass_.spp; ++sample) {
         const std::string text = test::describe_sample(trace, job_, pass_, guide, 12, 8, sample);
@@ -251,8 +251,8 @@ TEST(Splitting, FractionsSumToOne) {
     std::vector<PixelEstimate> pixels;
     RecordLog log;
     TraceStats stats;
-    test::render_unit(TraceScene(scene, job), job, pass, SdTreeSampler(tree), {pass.index, 0, 0, 16, 16, 0}, pixels,
-                      log, stats);
+    test::render_unit(TraceScene(scene, resolve(job, scene)), job, pass, SdTreeSampler(tree),
+                      {pass.index, 0, 0, 16, 16, 0}, pixels, log, stats);
     EXPECT_GT(stats.rays, 6 * stats.paths + stats.paths / 2) << "the test must split paths: of six edges each";
     const SplittingGain gain = splitting_gain(stats);
     EXPECT_NEAR(gain.mean_ratio, 1, 1e-6) << "alone they carry the same";

@@ -27,18 +27,18 @@ class BidirectionalTracer {
           scratch_(Surface::make_scratch(scene)),
           other_(Surface::make_scratch(scene)) {}
 
-    /// Radiance along a camera ray, by the random numbers of `key`; contributions to other pixels are splatted.
-    Rgb radiance(const PathKey& key, const Ray& camera_ray) {
+    /// Radiance along a camera ray; contributions to other pixels are splatted.
+    Rgb radiance(const Numbers auto& numbers, const Ray& camera_ray) {
         // the lens point of the ray
-        const Draw camera = draw(key, 0, Stream::camera), lens{camera[2], camera[3], 0, 0};
-        light_.trace(key);
-        if (rules_.light_image) connect_to_lens(key, lens);
+        const Draw camera = draw(numbers, 0, Stream::camera), lens{camera[2], camera[3], 0, 0};
+        light_.trace(numbers);
+        if (rules_.light_image) connect_to_lens(numbers, lens);
         met_alone_ = 0;
         const std::uint64_t rays = stats_.rays;
-        const Rgb met = walk(key, camera_ray, lens);
-        const SampleConnections::Sums sums = connections_.finish(key);
+        const Rgb met = walk(numbers, camera_ray, lens);
+        const SampleConnections::Sums sums = connections_.finish(numbers);
         const Rgb radiance = met + sums.own;
-        if (rules_.compare) compare(key, radiance, sums, stats_.rays - rays);
+        if (rules_.compare) compare(numbers.sample, radiance, sums, stats_.rays - rays);
         record_.add(light_.emitter(), sums.from_lights * sums.from_lights + sums.splat_squares);
         return radiance;
     }
@@ -68,8 +68,8 @@ class BidirectionalTracer {
     };
 
     /// Records the sample's radiance with its light subpath, and its radiance without.
-    void compare(const PathKey& key, const Rgb& radiance, const SampleConnections::Sums& sums, std::uint64_t rays) {
-        if ((key.sample - first_sample_) % kBlockSamples == 0) pairs_.finish(stats_.light_subpaths);
+    void compare(std::uint32_t sample, const Rgb& radiance, const SampleConnections::Sums& sums, std::uint64_t rays) {
+        if ((sample - first_sample_) % kBlockSamples == 0) pairs_.finish(stats_.light_subpaths);
         pairs_.add({per_usual_ * luminance(radiance), per_usual_ * (met_alone_ + sums.alone), per_usual_ * sums.splats,
                     per_usual_ * per_usual_ * sums.splat_squares});
         stats_.light_subpaths.alone_rays += rays + next_event_rays_;
@@ -77,7 +77,7 @@ class BidirectionalTracer {
     }
 
     /// Traces the camera subpath, connects its vertices, and returns the emission that it hits.
-    Rgb walk(const PathKey& key, const Ray& camera_ray, const Draw& lens) {
+    Rgb walk(const Numbers auto& numbers, const Ray& camera_ray, const Draw& lens) {
         Path path{camera_ray};
         Rgb met(0.0f);
         for (int depth = 1;; ++depth) {
@@ -96,7 +96,7 @@ class BidirectionalTracer {
 
             if (!found || !rules_.goes_on(depth)) return met;
             if (depth > 1 && !rules_.roulette.spares(path.throughput, path.spread, depth - 1,
-                                                     to_unit(draw(key, number - 1, Stream::roulette)[0])))
+                                                     to_unit(draw(numbers, number - 1, Stream::roulette)[0])))
                 return met;
 
             scene_.geometry().keep_inside(hit, path.ray);
@@ -107,11 +107,11 @@ class BidirectionalTracer {
 
             const CameraVertex vertex{hit, surface, to_before, path.throughput, sums, depth};
             if (surface.smooth()) {
-                next_event(vertex, draw(key, number, Stream::light));
+                next_event(vertex, draw(numbers, number, Stream::light));
                 for (int i = 0; i < light_.size() && rules_.goes_on(depth + i + 1); ++i)
                     connect(light_[i], vertex, i + 2);
             }
-            if (!scatter(path, vertex, draw(key, number, Stream::scatter))) return met;
+            if (!scatter(path, vertex, draw(numbers, number, Stream::scatter))) return met;
         }
     }
 
@@ -214,7 +214,7 @@ class BidirectionalTracer {
     }
 
     /// Technique (s, 1): connects vertices of the light subpath to the lens.
-    void connect_to_lens(const PathKey& key, const Draw& lens) {
+    void connect_to_lens(const Numbers auto& numbers, const Draw& lens) {
         for (int i = 0; i < light_.size(); ++i) {
             const LightVertex<Surface>& y = light_[i];
             if (!rules_.techniques.has(i + 2, 1) || !y.surface->smooth() || scene_.geometry().hidden(y.hit.shape))
@@ -226,7 +226,7 @@ class BidirectionalTracer {
             const Rgb value = y.light * scattering.f;
             if (is_black(value)) continue;
             const auto vertex = static_cast<std::uint32_t>(i + 1);
-            const PixelPick pick = sensor_.pixels.pick(to.x, to.y, draw(key, vertex, Stream::filter_pick));
+            const PixelPick pick = sensor_.pixels.pick(to.x, to.y, draw(numbers, vertex, Stream::filter_pick));
             if (!pick.found) continue;
             const double pdf = to.g * sensor_.per_window * double(geometric_cosine(y.hit, to.direction));
             const double weight =

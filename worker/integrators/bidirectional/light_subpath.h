@@ -39,16 +39,16 @@ class LightSubpath {
           stats_(stats),
           scratch_(Surface::make_scratch(scene)) {}
 
-    /// Traces the light subpath of a key: each vertex has its own random numbers, the emitter 0, surfaces from 1 on.
-    void trace(const PathKey& key) {
+    /// Traces a light subpath: each vertex has its own random numbers, the emitter 0, surfaces from 1 on.
+    void trace(const Numbers auto& numbers) {
         count_ = 0;
         emitter_ = 0;
         if (!rules_.goes_on(1)) return;
-        const EmissionSample start =
-            scene_.emitters().emit(draw(key, 0, Stream::light_start), draw(key, 0, Stream::light_scatter), &choice_);
+        const EmissionSample start = scene_.emitters().emit(draw(numbers, 0, Stream::light_start),
+                                                            draw(numbers, 0, Stream::light_scatter), &choice_);
         emitter_ = start.entry;
         if (start.from != EmissionFrom::nothing) record_.start(emitter_);
-        if (!is_black(start.weight)) walk(start, key);
+        if (!is_black(start.weight)) walk(start, numbers);
     }
 
     /// Emitter at the start of the path, an entry of EmissionChoice; 0 if there is none.
@@ -58,7 +58,7 @@ class LightSubpath {
     const Vertex& operator[](int i) const { return vertices_[static_cast<std::size_t>(i)]; }
 
   private:
-    void walk(const EmissionSample& start, const PathKey& key) {
+    void walk(const EmissionSample& start, const Numbers auto& numbers) {
         Ray ray = start.ray;
         Rgb throughput(1.0f);  // since the emitter
         Departure from;
@@ -68,7 +68,7 @@ class LightSubpath {
             ++stats_.rays;
             if (!scene_.geometry().intersect(ray, vertex.hit)) return;
             if (depth > 1 && !rules_.roulette.spares(throughput, 1.0f, depth - 1,
-                                                     to_unit(draw(key, number - 1, Stream::light_roulette)[0])))
+                                                     to_unit(draw(numbers, number - 1, Stream::light_roulette)[0])))
                 return;
             scene_.geometry().keep_inside(vertex.hit, ray);
             vertex.in = -ray.direction;
@@ -86,7 +86,7 @@ class LightSubpath {
             ++stats_.vertices;
             if (!rules_.goes_on(depth + 1)) return;
             const LightStep step = scatter_light(scene_, vertex.hit, surface, vertex.in, rules_.strict_normals,
-                                                 draw(key, number, Stream::light_scatter), scratch_);
+                                                 draw(numbers, number, Stream::light_scatter), scratch_);
             if (!step.goes_on) return;
             throughput *= step.weight;
             from = {vertex.hit.p, double(geometric_cosine(vertex.hit, step.direction)),

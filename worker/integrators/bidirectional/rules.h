@@ -22,7 +22,7 @@ struct BidirectionalRules {
     Roulette roulette;
     TechniqueSet techniques;  ///< techniques that contribute to the image
 
-    BidirectionalRules(const TraceScene& scene, const Job& job, const PassPlan& pass)
+    BidirectionalRules(const TraceScene& scene, const Resolved& job, const PassPlan& pass)
         : max_depth(job.integrator.max_depth),
           next_event(pass.next_event && scene.emitters().can_sample()),
           delta_alone(!pass.next_event && scene.emitters().has_delta_lights()),

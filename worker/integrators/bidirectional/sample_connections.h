@@ -34,7 +34,7 @@ class SampleConnections {
     }
 
     /// Traces the shadow rays, splats contributions to other pixels, and returns the sums. Clears the connections.
-    Sums finish(const PathKey& key) {
+    Sums finish(const Numbers auto& numbers) {
         Sums sums;
         for (std::size_t begin = 0; begin < rays_.size(); begin += EmbreeScene::kMostTogether) {
             const std::size_t count = std::min(rays_.size() - begin, EmbreeScene::kMostTogether);
@@ -48,8 +48,8 @@ class SampleConnections {
                     if (carried.pixel == kOwn) sums.from_lights += luminance(carried.value);
                     continue;
                 }
-                output_.splats.add(carried.pixel, key.sample, carried.value,
-                                   draw(key, carried.vertex, Stream::splat_round));
+                output_.splats.add(carried.pixel, numbers.sample, carried.value,
+                                   draw(numbers, carried.vertex, Stream::splat_round));
                 const double splat = luminance(carried.value);
                 sums.splats += splat;
                 sums.splat_squares += splat * splat;

@@ -14,11 +14,11 @@ namespace {
 template <class Surface>
 class DirectLight {
   public:
-    DirectLight(const TraceScene& scene, const Job::Integrator& job, TraceStats& stats)
+    DirectLight(const TraceScene& scene, const Resolved::Integrator& job, TraceStats& stats)
         : scene_(scene), job_(job), stats_(stats), scratch_(Surface::make_scratch(scene)) {}
 
     /// Radiance along a camera ray. Sample i of a surface uses the random numbers of the path's vertex 1 + i.
-    Rgb radiance(const PathKey& key, const Ray& ray) {
+    Rgb radiance(const Numbers auto& numbers, const Ray& ray) {
         Hit hit;
         ++stats_.rays;
         const bool found = scene_.geometry().intersect(ray, hit);
@@ -31,9 +31,9 @@ class DirectLight {
         if (job_.strict_normals && -dot(surface.ng(), ray.direction) * surface.wo().z < 0.0f) return sum;
         ++stats_.vertices;
         for (int i = 0; surface.smooth() && i < job_.emitter_samples; ++i)
-            sum += emitter_sample(hit, surface, draw(key, vertex(i), Stream::light));
+            sum += emitter_sample(hit, surface, draw(numbers, vertex(i), Stream::light));
         for (int i = 0; i < job_.bsdf_samples; ++i)
-            sum += bsdf_sample(hit, surface, draw(key, vertex(i), Stream::scatter));
+            sum += bsdf_sample(hit, surface, draw(numbers, vertex(i), Stream::scatter));
         return sum;
     }
 
@@ -69,7 +69,7 @@ class DirectLight {
     float weight(float own, float other) const { return mis_weight(job_.mis, own, other); }
 
     const TraceScene& scene_;
-    const Job::Integrator& job_;
+    const Resolved::Integrator& job_;
     TraceStats& stats_;
     typename Surface::Scratch scratch_;
     const float emitters_ = static_cast<float>(job_.emitter_samples), bsdfs_ = static_cast<float>(job_.bsdf_samples);

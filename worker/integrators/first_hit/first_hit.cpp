@@ -96,7 +96,7 @@ class Follower {
         : scene_(scene), layout_(layout), eye_(eye), axis_(axis), scratch_(Surface::make_scratch(scene)) {}
 
     /// Traces a sample's ray; `first`: the pixel's first sample, whose ids are stored.
-    void follow(const PathKey& key, Ray ray, bool first, double* values) {
+    void follow(const Numbers auto& numbers, Ray ray, bool first, double* values) {
         Row row(layout_, values);
         const bool beyond = layout_.has(Aov::albedo) || layout_.has(Aov::normal);
         const Vec3 from = ray.origin;
@@ -116,7 +116,7 @@ class Follower {
                 if (layout_.has(Aov::albedo)) row.add(Aov::albedo, flat_albedo(hit, surface, ray));
                 return;
             }
-            const BsdfSample s = sample_bsdf(surface, draw(key, vertex, Stream::scatter));
+            const BsdfSample s = sample_bsdf(surface, draw(numbers, vertex, Stream::scatter));
             if (!(s.pdf > 0.0f)) return;
             const Vec3 direction = surface.frame().to_world(s.wi);
             ray = {offset_origin(hit, direction), direction};
