@@ -214,10 +214,9 @@ std::function<void()> CheckpointStore::prepare(const CheckpointOrigin& origin, R
     {
         const std::lock_guard lock(mutex_);
         for (PassResult& film : state.films) {
-            std::error_code none;
             if (const auto waiting = unwritten_.find(film.stored); waiting != unwritten_.end()) {
                 films.insert(*waiting);
-            } else if (film.stored.empty() || !fs::exists(folder_ / film.stored, none)) {
+            } else if (!has_intact(film.stored)) {
                 auto bytes = std::make_shared<const Bytes>(encode_pixels(film.pixels));
                 film.stored = film_name(*bytes);
                 films[film.stored] = std::move(bytes);
@@ -232,7 +231,10 @@ std::function<void()> CheckpointStore::prepare(const CheckpointOrigin& origin, R
 void CheckpointStore::write(const CheckpointOrigin& origin, RenderState& state) {
     make_folder();
     for (PassResult& film : state.films) {
-        if (!film.stored.empty() && fs::exists(folder_ / film.stored)) continue;
+        {
+            const std::lock_guard lock(mutex_);
+            if (has_intact(film.stored)) continue;
+        }
         const Bytes bytes = encode_pixels(film.pixels);
         film.stored = film_name(bytes);
         write_film(film.stored, bytes);
@@ -264,14 +266,21 @@ void CheckpointStore::write_films(const Films& films) {
     }
 }
 
-/// Writes a film unless its file is there and intact: one of the same name may be damaged.
 void CheckpointStore::write_film(const std::string& name, std::span<const std::uint8_t> bytes) {
     const fs::path path = folder_ / name;
-    std::error_code none;
-    if (intact_.contains(name) && fs::exists(path, none)) return;
+    {
+        const std::lock_guard lock(mutex_);
+        if (has_intact(name)) return;
+    }
     make_room_at(path);
     write_file_atomically(path, bytes, Outlives::power);
+    const std::lock_guard lock(mutex_);
     intact_.insert(name);
+}
+
+bool CheckpointStore::has_intact(const std::string& name) const {
+    std::error_code none;
+    return intact_.contains(name) && fs::exists(folder_ / name, none);
 }
 
 void CheckpointStore::make_folder() const {

@@ -77,13 +77,16 @@ class CheckpointStore {
     void write_generation(const SectionFile& file, const Names& names, const Films& films);
     void write_films(const Films& films);
     void write_film(const std::string& name, std::span<const std::uint8_t> bytes);
+    /// Whether a film's file is there and this process read or wrote it: one of the same name may be damaged. The mutex
+    /// is held.
+    bool has_intact(const std::string& name) const;
     void make_folder() const;
     void remove_unnamed() const;
 
     const std::filesystem::path folder_;
     std::uint64_t generation_ = 0;  ///< of the checkpoint last prepared or written
-    Names intact_;                  ///< films whose files were read or written by this process; of the writing thread
     std::mutex mutex_;              ///< guards the members below
+    Names intact_;                  ///< films whose files were read or written by this process
     Films unwritten_;               ///< of the checkpoint last prepared
     std::size_t slot_ = 0;          ///< file that is written next: 0 for a, 1 for b
     std::array<Names, 2> named_;    ///< names of films, by slot

@@ -187,13 +187,18 @@ class FarmTest : public ::testing::Test {
         ends_.assign(std::size_t(count), WorkerEnd::orderly);
     }
 
-    /// Two workers. `act` gets the first one's first result on its way; the second one waits for that.
+    /// Two workers. `act` gets the first one's first result on its way. Each holds units until the other one has some
+    /// and `act` has returned: no pass ends before.
     void on_first_result(std::function<void(Bytes&)> act) {
         make_workers(2);
         first_ = 0;
+        renderers_[0] = make_patient(faulty_[1]->worked);
         renderers_[1] = make_patient(sent_);
         faulty_[0]->outgoing = [this, act = std::move(act)](Bytes& bytes) {
-            if (is<Result>(bytes) && !sent_.exchange(true)) act(bytes);
+            if (is<Result>(bytes) && !sent_) {
+                act(bytes);
+                sent_ = true;
+            }
             return true;
         };
     }

@@ -129,7 +129,10 @@ TEST_F(FarmTest, AForgedResultIsRefused) {
 }
 
 TEST_F(FarmTest, AResultThatComesTwiceCountsOnce) {
-    on_first_result([&](Bytes& bytes) { channels_[1]->send(0, std::make_shared<const Bytes>(bytes)); });
+    on_first_result([&](Bytes& bytes) {  // both copies arrive before the other worker delivers and its pass may end
+        for (int k = 0; k < 2; ++k)
+            channels_[1]->send(0, std::make_shared<const Bytes>(bytes));
+    });
     expect_truth(render());
     EXPECT_EQ(lost_, std::set<int>{1});
 }

@@ -225,6 +225,25 @@ TEST_F(Checkpoints, OneThatWasSupersededBeforeItWasWrittenLosesNothing) {
     EXPECT_EQ(load().state.spp(), 3u);
 }
 
+/// The films of a resumed render's last passes are often prepared and not yet written when the render ends.
+TEST_F(Checkpoints, ADamagedFileIsNoFilmThatWasPrepared) {
+    for (const bool writes_at_once : {true, false}) {
+        RenderState state = state_of(2);
+        const std::string name = film_name(encode_pixels(state.films[1].pixels));
+        fs::create_directories(folder_);
+        std::ofstream(folder_ / name) << "damaged";
+        CheckpointStore store(run_);
+        store.prepare(origin(), state);
+        if (writes_at_once)
+            store.write(origin(), state);
+        else
+            store.prepare(origin(), state)();
+        EXPECT_EQ(load().state.spp(), 2u);
+        EXPECT_TRUE(load().warnings.empty());
+        store.remove();
+    }
+}
+
 TEST_F(Checkpoints, AFolderThatVanishedIsMadeAgain) {
     CheckpointStore store(run_);
     RenderState state = state_of(2);
