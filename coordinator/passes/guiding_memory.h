@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "common/film/guiding_efficiency.h"
+#include "common/decide/guiding/guiding_efficiency.h"
 #include "common/plan/schedule/schedule.h"
 
 namespace treefarm {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/film/guiding_efficiency.h"
+#include "common/decide/guiding/guiding_efficiency.h"
 #include "common/plan/schedule/schedule.h"
 
 namespace treefarm {

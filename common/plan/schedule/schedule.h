@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/decide/light_subpaths/light_subpath_gain.h"
+#include "common/decide/splitting/splitting_gain.h"
 #include "common/film/develop.h"
-#include "common/film/light_subpath_gain.h"
-#include "common/film/splitting_gain.h"
 #include "common/film/work_unit.h"
 #include "common/plan/resolve/resolve.h"
 #include "common/plan/schedule/kernel_choice.h"

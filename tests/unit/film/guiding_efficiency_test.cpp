@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // guiding.type "auto": what guided paths tell of unguided ones, and what is made of it.
-#include "common/film/guiding_efficiency.h"
+#include "common/decide/guiding/guiding_efficiency.h"
 
 #include <gtest/gtest.h>
 
