@@ -79,4 +79,10 @@ LightSubpathGain light_subpath_gain(const LightSubpathSums& sums, const TraceCou
             ratio(counts.rays + counts.shadow_rays, sums.alone_rays), ratio(sums.alone_mean, sums.both_mean)};
 }
 
+bool light_subpaths_may_pay(const PassPlan& pass, const LightSubpathGain& gain) {
+    if (pass.spp < tuned<std::uint32_t>("light_subpaths.least_spp") || gain.noise == 0) return true;
+    return gain.mean_ratio < tuned("light_subpaths.least_found") ||
+           gain.at_equal_cost() >= tuned("light_subpaths.least_gain");
+}
+
 }  // namespace treefarm

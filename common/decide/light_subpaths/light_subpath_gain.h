@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "common/decide/pass/pass_plan.h"
 #include "common/film/trace_counts.h"
 
 namespace treefarm {
@@ -58,5 +59,8 @@ struct LightSubpathGain {
     double at_equal_cost() const;
 };
 LightSubpathGain light_subpath_gain(const LightSubpathSums& sums, const TraceCounts& counts);
+
+/// Whether light subpaths may pay, after a pass with this gain. A negative answer is final.
+bool light_subpaths_may_pay(const PassPlan& pass, const LightSubpathGain& gain);
 
 }  // namespace treefarm

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/policy.h"
 #include "common/math/saturating.h"
 
 namespace treefarm {
@@ -55,6 +56,17 @@ SplittingGain splitting_gain(const SplittingSums& sums, const TraceCounts& count
     const auto ratio = [](std::uint64_t a, std::uint64_t b) { return static_cast<double>(a) / static_cast<double>(b); };
     return {ratio(sums.unsplit_variance, sums.split_variance), ratio(counts.rays, counts.rays - counts.split_path_rays),
             ratio(sums.unsplit_mean, sums.split_mean)};
+}
+
+bool splitting_may_pay(const PassPlan& pass, const SplittingGain& gain) {
+    if (pass.spp < tuned<std::uint32_t>("splitting.least_spp") || gain.variance == 0 ||
+        gain.mean_ratio < tuned("splitting.least_found"))
+        return true;
+    if (gain.variance < tuned("splitting.least_quietened")) return false;
+    if (!pass.next_event) return gain.variance >= tuned("splitting.least_gain_alone") * gain.rays;
+    const double quieter = 1 + (gain.variance - 1) / tuned("splitting.shown_gain"),
+                 slower = 1 + (gain.rays - 1) * tuned("splitting.copy_ray_cost");
+    return quieter >= tuned("splitting.least_gain") * slower;
 }
 
 }  // namespace treefarm

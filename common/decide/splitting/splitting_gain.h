@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "common/decide/pass/pass_plan.h"
 #include "common/film/trace_counts.h"
 
 namespace treefarm {
@@ -48,5 +49,9 @@ struct SplittingGain {
     double mean_ratio = 0;
 };
 SplittingGain splitting_gain(const SplittingSums& sums, const TraceCounts& counts);
+
+/// Whether splitting may pay, after a pass with this gain. A negative answer is final, since without splitting there
+/// are no new measurements.
+bool splitting_may_pay(const PassPlan& pass, const SplittingGain& gain);
 
 }  // namespace treefarm

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "common/plan/schedule/guiding_verdict.h"
+#include "common/decide/guiding/guiding_verdict.h"
 #include "common/plan/schedule/learning.h"
 #include "coordinator/passes/render_state.h"
 #include "tests/support/resolved.h"

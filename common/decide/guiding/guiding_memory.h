@@ -4,7 +4,8 @@
 #include <cstdint>
 
 #include "common/decide/guiding/guiding_efficiency.h"
-#include "common/plan/schedule/schedule.h"
+#include "common/decide/guiding/guiding_verdict.h"
+#include "common/decide/pass/pass_plan.h"
 
 namespace treefarm {
 
