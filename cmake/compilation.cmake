@@ -15,7 +15,7 @@ set(TREEFARM_UNITY_FILES 6 CACHE STRING "files that are compiled as one")
 set(TREEFARM_COLD_LEVEL "" CACHE STRING "level of cold files; empty: -O2, and -O1 for tests, in a release build by g++")
 
 # Modules whose speed matters stay as they are. The others, and every test, are cold.
-set(TREEFARM_HOT base film guiding image metrics textures geometry shading lights camera trace_scene integrators tools worker)
+set(TREEFARM_HOT base film decide guiding image metrics textures geometry shading lights camera trace_scene integrators tools worker)
 list(TRANSFORM TREEFARM_HOT PREPEND tf_)
 set(TREEFARM_KERNELS tf_shading tf_trace_scene tf_integrators)
 

@@ -46,7 +46,7 @@ inline constexpr float kUsualBootstrap = -1.0f;
 enum class Rule : std::uint8_t {
     usual,          ///< decided by other keys; resolved jobs have another value
     always,         ///< in all passes of the render
-    while_it_pays,  ///< while finished passes show that it pays (film/guiding_efficiency.h, film/splitting_gain.h)
+    while_it_pays,  ///< while finished passes show that it pays (common/decide)
 };
 
 /// Probabilities by which next event chooses among a scene's emitters.

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "common/base/bytes.h"
+#include "common/decide/trace_stats.h"
 #include "common/film/aov_film.h"
 #include "common/film/pixel_estimate.h"
-#include "common/film/trace_stats.h"
 #include "common/film/work_unit.h"
 #include "common/plan/schedule/schedule.h"
 #include "common/protocol/envelope.h"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "common/base/bytes.h"
+#include "common/decide/trace_stats.h"
 #include "common/film/done_work.h"
-#include "common/film/trace_stats.h"
 #include "common/plan/forecast/forecast.h"
 #include "common/plan/schedule/schedule.h"
 #include "coordinator/farm/ledger.h"

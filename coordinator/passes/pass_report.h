@@ -6,10 +6,10 @@
 #include <optional>
 #include <string>
 
+#include "common/decide/guiding/guiding_efficiency.h"
+#include "common/decide/trace_stats.h"
 #include "common/film/combine.h"
 #include "common/film/error_estimate.h"
-#include "common/film/guiding_efficiency.h"
-#include "common/film/trace_stats.h"
 #include "common/guiding/any_guide.h"
 #include "common/plan/forecast/forecast.h"
 #include "common/plan/schedule/schedule.h"

@@ -10,10 +10,10 @@
 #include "common/base/hash.h"
 #include "common/base/policy.h"
 #include "common/config/aov_list.h"
-#include "common/film/emission_shares.h"
+#include "common/decide/emission/emission_shares.h"
+#include "common/decide/light_subpaths/light_subpath_gain.h"
+#include "common/decide/pixels/image_levels.h"
 #include "common/film/fold_passes.h"
-#include "common/film/image_levels.h"
-#include "common/film/light_subpath_gain.h"
 #include "common/plan/schedule/learning.h"
 
 namespace treefarm {
@@ -60,7 +60,7 @@ void judge_guiding(RenderState& state, const Resolved& job, std::size_t width, d
 }
 
 void judge_splitting(RenderState& state, const Resolved& job, PassReport& report) {
-    report.splitting_gain = splitting_gain(report.stats);
+    report.splitting_gain = splitting_gain(report.stats.splitting, report.stats);
     if (job.guiding.splitting_rule == Rule::while_it_pays && !splitting_may_pay(report.plan, report.splitting_gain))
         state.history.splitting = false;
     report.splitting = state.history.splitting;
@@ -116,7 +116,7 @@ LightSubpathGain gain_so_far(const RenderState& state, const PassReport& report)
     for (const PassReport& before : state.reports)
         add(before);
     add(report);
-    return light_subpath_gain(all);
+    return light_subpath_gain(all.light_subpaths, all);
 }
 
 void judge_light_subpaths(RenderState& state, const Resolved& job, PassReport& report) {

@@ -6,13 +6,13 @@
 #include <optional>
 #include <vector>
 
+#include "common/decide/guiding/guiding_memory.h"
 #include "common/film/aov_film.h"
 #include "common/film/combine.h"
 #include "common/guiding/any_guide.h"
 #include "common/guiding/regions/next_event.h"
 #include "common/plan/forecast/budget.h"
 #include "coordinator/farm/partial_pass.h"
-#include "coordinator/passes/guiding_memory.h"
 #include "coordinator/passes/pass_report.h"
 
 namespace treefarm {

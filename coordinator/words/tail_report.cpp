@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 
-#include "common/film/noise_share.h"
+#include "coordinator/words/noise_share.h"
 
 namespace treefarm {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "common/base/policy.h"
 #include "common/config/job_reader.h"
-#include "common/film/image_levels.h"
+#include "common/decide/pixels/image_levels.h"
 #include "common/metrics/z_test.h"
 #include "coordinator/input/load.h"
 #include "tests/support/local_render.h"

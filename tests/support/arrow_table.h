@@ -15,12 +15,14 @@ inline const std::vector<std::vector<std::string>> kFloors = {
     {"common/base/text", "common/config/effects"},
     {"common/base"},
     {"common/base/files", "common/math"},
+    {"common/decide/next_event"},
     {"common/image", "common/runs", "common/film", "common/guiding/statistics", "common/scene/kinds/traits"},
-    {"common/metrics", "common/guiding/regions", "common/scene/kinds/emitters", "common/scene/kinds/materials",
-     "common/scene/kinds/shapes", "common/scene/kinds/textures"},
+    {"common/metrics", "common/guiding/regions", "common/decide/pixels", "common/decide/emission", "common/decide/pass",
+     "common/scene/kinds/emitters", "common/scene/kinds/materials", "common/scene/kinds/shapes",
+     "common/scene/kinds/textures"},
     {"common/metrics/flip", "common/guiding/grid", "common/guiding/qtable", "common/guiding/sd_tree",
-     "common/scene/kinds"},
-    {"common/guiding"},
+     "common/decide/guiding", "common/decide/splitting", "common/decide/light_subpaths", "common/scene/kinds"},
+    {"common/guiding", "common/decide"},
     {"common/config", "common/scene/model"},
     {"common/scene/uses"},
     {"common/scene/pack", "common/plan/resolve"},
@@ -57,7 +59,8 @@ inline const std::map<std::string, std::set<std::string>> kSides = {
     {"cli", {"common", "coordinator", "worker", "report", "serve"}}};
 
 /// Folders that are pure, with all below them.
-inline const std::vector<std::string> kPure = {"common/metrics", "common/guiding", "common/film", "common/plan"};
+inline const std::vector<std::string> kPure = {"common/metrics", "common/guiding", "common/film", "common/decide",
+                                               "common/plan"};
 
 /// Headers of clocks, threads, files, terminals and unkeyed randomness, and our own headers that include them.
 inline const std::vector<std::string> kImpure = {"chrono",

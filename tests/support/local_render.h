@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "common/decide/trace_stats.h"
 #include "common/film/combine.h"
 #include "common/film/splat_film.h"
-#include "common/film/trace_stats.h"
 #include "common/guiding/any_guide.h"
 #include "common/plan/forecast/budget.h"
 #include "common/scene/model/scene.h"

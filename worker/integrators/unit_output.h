@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/decide/trace_stats.h"
 #include "common/film/aov_film.h"
 #include "common/film/pixel_estimate.h"
 #include "common/film/splat_film.h"
-#include "common/film/trace_stats.h"
 #include "worker/integrators/record_log.h"
 
 namespace treefarm {

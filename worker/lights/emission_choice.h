@@ -9,7 +9,7 @@
 namespace treefarm {
 
 /// Choice of a light path's emitter in one pass: by power, or by the emitters' contributions to the image in earlier
-/// passes (common/film/emission_shares.h). `power` must outlive it.
+/// passes (common/decide/emission/emission_shares.h). `power` must outlive it.
 class EmissionChoice {
   public:
     /// `emphasis`: factor per entry, or empty. Throws RunError if its size is not that of `power`.

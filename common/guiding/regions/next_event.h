@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "common/decide/next_event/next_event_sums.h"
 #include "common/guiding/regions/refinement.h"
 #include "common/guiding/regions/region_model.h"
 #include "common/guiding/statistics/cell_sums.h"
-#include "common/math/next_event_sums.h"
 
 namespace treefarm {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "common/decide/next_event/next_event_sums.h"
 #include "common/guiding/regions/region_model.h"
-#include "common/math/next_event_sums.h"
 
 namespace treefarm {
 namespace {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "common/base/random.h"
+#include "common/decide/next_event/next_event_sums.h"
 #include "common/guiding/regions/region_model.h"
 #include "common/math/level_block.h"
-#include "common/math/next_event_sums.h"
 #include "common/math/vector_batch.h"
 
 namespace treefarm {

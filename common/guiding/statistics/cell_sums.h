@@ -9,9 +9,9 @@
 #include "common/base/bytes.h"
 #include "common/base/large_table.h"
 #include "common/base/prefetch.h"
+#include "common/decide/next_event/next_event_sums.h"
 #include "common/guiding/statistics/record_units.h"
 #include "common/math/elementary.h"
-#include "common/math/next_event_sums.h"
 
 namespace treefarm {
 

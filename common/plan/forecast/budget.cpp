@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "common/base/policy.h"
-#include "common/film/emission_shares.h"
+#include "common/decide/emission/emission_shares.h"
 
 namespace treefarm {
 namespace {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/decide/emission/emission_shares.h"
 #include "common/film/error_estimate.h"
 #include "common/plan/schedule/schedule.h"
 

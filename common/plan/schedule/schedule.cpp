@@ -62,27 +62,10 @@ void set_splitting(PassPlan& pass, const Resolved& job, bool pays) {
     if (job.guiding.splitting_rule == Rule::while_it_pays) pass.split = pays;
 }
 
-bool splitting_may_pay(const PassPlan& pass, const SplittingGain& gain) {
-    if (pass.spp < tuned<std::uint32_t>("splitting.least_spp") || gain.variance == 0 ||
-        gain.mean_ratio < tuned("splitting.least_found"))
-        return true;
-    if (gain.variance < tuned("splitting.least_quietened")) return false;
-    if (!pass.next_event) return gain.variance >= tuned("splitting.least_gain_alone") * gain.rays;
-    const double quieter = 1 + (gain.variance - 1) / tuned("splitting.shown_gain"),
-                 slower = 1 + (gain.rays - 1) * tuned("splitting.copy_ray_cost");
-    return quieter >= tuned("splitting.least_gain") * slower;
-}
-
 void set_light_subpaths(PassPlan& pass, const Resolved& job, bool pays) {
     if (pays || job.bidirectional.light_subpaths != Rule::while_it_pays) return;
     pass.light_subpaths = false;
     pass.layers.splats = {};
-}
-
-bool light_subpaths_may_pay(const PassPlan& pass, const LightSubpathGain& gain) {
-    if (pass.spp < tuned<std::uint32_t>("light_subpaths.least_spp") || gain.noise == 0) return true;
-    return gain.mean_ratio < tuned("light_subpaths.least_found") ||
-           gain.at_equal_cost() >= tuned("light_subpaths.least_gain");
 }
 
 PassPlan make_pass(const Resolved& job, std::uint32_t index, std::uint32_t first_sample, std::uint32_t spp, bool last) {

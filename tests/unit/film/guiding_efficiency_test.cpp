@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // guiding.type "auto": what guided paths tell of unguided ones, and what is made of it.
-#include "common/film/guiding_efficiency.h"
+#include "common/decide/guiding/guiding_efficiency.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <vector>
 
-#include "common/plan/schedule/guiding_verdict.h"
+#include "common/decide/guiding/guiding_verdict.h"
 #include "common/plan/schedule/learning.h"
 #include "coordinator/passes/render_state.h"
 #include "tests/support/resolved.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whether splitting pays, from samples whose moments are known.
-#include "common/film/splitting_gain.h"
+#include "common/decide/splitting/splitting_gain.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,8 @@
 #include <limits>
 
 #include "common/base/policy.h"
-#include "common/film/emission_shares.h"
+#include "common/decide/emission/emission_shares.h"
+#include "common/decide/trace_stats.h"
 #include "common/film/splat_film.h"
 #include "common/plan/forecast/budget.h"
 #include "common/plan/schedule/schedule.h"
@@ -26,7 +27,7 @@ TEST(SplittingGain, ComparesVarianceAndRays) {
     pixel.finish(stats.splitting);
     stats.rays = 500;
     stats.split_path_rays = 100;
-    const SplittingGain gain = splitting_gain(stats);
+    const SplittingGain gain = splitting_gain(stats.splitting, stats);
     EXPECT_NEAR(gain.variance, 4, 1e-3);
     EXPECT_NEAR(gain.mean_ratio, 1, 1e-3);
     EXPECT_DOUBLE_EQ(gain.rays, 500.0 / 400);
@@ -60,7 +61,7 @@ TEST(SplittingGain, OneSampleHasNoVarianceAndNonsenseIsLeftOut) {
     }
     pixel.finish(sums);
     EXPECT_EQ(sums.split_mean + sums.unsplit_mean + sums.split_variance + sums.unsplit_variance, 0u);
-    EXPECT_EQ(splitting_gain({}).variance, 0) << "not known";
+    EXPECT_EQ(splitting_gain({}, {}).variance, 0) << "not known";
 }
 
 /// Sums over as many pixels as there can be, as bright as they come, do not wrap around.
@@ -141,7 +142,7 @@ TEST(LightSubpathGain, ComparesVarianceAndRays) {
     stats.rays = 300;
     stats.shadow_rays = 100;
     stats.light_subpaths.alone_rays = 200;
-    const LightSubpathGain gain = light_subpath_gain(stats);
+    const LightSubpathGain gain = light_subpath_gain(stats.light_subpaths, stats);
     EXPECT_NEAR(gain.noise, 8 / 1.5, 1e-6);
     EXPECT_NEAR(gain.mean_ratio, 2 / 2.5, 1e-6);
     EXPECT_DOUBLE_EQ(gain.rays, 2.0);
@@ -158,8 +159,8 @@ TEST(LightSubpathGain, OneSampleHasNoVarianceAndNonsenseIsLeftOut) {
     }
     pixel.finish(sums);
     EXPECT_EQ(sums.samples + sums.both_mean + sums.alone_mean + sums.both_variance + sums.alone_variance, 0u);
-    EXPECT_EQ(light_subpath_gain({}).noise, 0) << "not known";
-    EXPECT_EQ(light_subpath_gain({}).at_equal_cost(), 0);
+    EXPECT_EQ(light_subpath_gain({}, {}).noise, 0) << "not known";
+    EXPECT_EQ(light_subpath_gain({}, {}).at_equal_cost(), 0);
 }
 
 /// Four pixels of eight samples, in each of which light subpaths bring something more than what paths from the camera
@@ -178,7 +179,7 @@ TEST(LightSubpathGain, MissedLightIsNoiseThatNobodyHasSeen) {
             pixel.add(sample);
             pixel.finish(stats.light_subpaths);
         }
-        return light_subpath_gain(stats).noise;
+        return light_subpath_gain(stats.light_subpaths, stats).noise;
     };
     EXPECT_NEAR(noise(1.0), 32 / 0.5, 1e-4) << "camera paths alone show none";
     EXPECT_EQ(noise(1.0, true), noise(1.0)) << "passes of 9 spp: a block of one sample has no variance";

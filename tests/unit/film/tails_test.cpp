@@ -7,7 +7,7 @@
 #include <set>
 #include <sstream>
 
-#include "common/film/noise_share.h"
+#include "coordinator/words/noise_share.h"
 #include "coordinator/words/tail_report.h"
 #include "tests/support/local_render.h"
 #include "tests/support/material_scenes.h"

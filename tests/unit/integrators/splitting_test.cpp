@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 
-#include "common/film/splitting_gain.h"
+#include "common/decide/splitting/splitting_gain.h"
 #include "coordinator/input/load.h"
 #include "tests/support/local_render.h"
 #include "tests/support/resolved.h"
@@ -190,7 +190,7 @@ TEST_F(SplittingInARoom, DoesNotDependOnOtherPaths) {
 TEST_F(SplittingInARoom, UnsplitSamplesAreThoseOfPathsThatAreNotSplit) {
     pass_.spp = 1024;  // rare samples make most of the noise
     const Rendered split = render(job_, part(0, 0, 24, 16));
-    const SplittingGain gain = splitting_gain(split.stats);
+    const SplittingGain gain = splitting_gain(split.stats.splitting, split.stats);
     EXPECT_NEAR(gain.mean_ratio, 1, 0.1);
     EXPECT_GT(gain.variance, 1.1);
     EXPECT_GT(gain.rays, 1.05);
@@ -198,7 +198,7 @@ TEST_F(SplittingInARoom, UnsplitSamplesAreThoseOfPathsThatAreNotSplit) {
     alone.guiding.splitting = 1;
     const Rendered unsplit = render(alone, part(0, 0, 24, 16));
     EXPECT_EQ(unsplit.stats.split_path_rays, 0u);
-    EXPECT_EQ(splitting_gain(unsplit.stats).variance, 0) << "nothing to compare";
+    EXPECT_EQ(splitting_gain(unsplit.stats.splitting, unsplit.stats).variance, 0) << "nothing to compare";
     double with = 0, without = 0;
     for (std::size_t p = 0; p < split.pixels.size(); ++p) {
         // Relative, as passes compare: to the pixel's light here, to what its first region expects there.
@@ -254,7 +254,7 @@ TEST(Splitting, FractionsSumToOne) {
     test::render_unit(TraceScene(scene, resolve(job, scene)), job, pass, SdTreeSampler(tree),
                       {pass.index, 0, 0, 16, 16, 0}, pixels, log, stats);
     EXPECT_GT(stats.rays, 6 * stats.paths + stats.paths / 2) << "the test must split paths: of six edges each";
-    const SplittingGain gain = splitting_gain(stats);
+    const SplittingGain gain = splitting_gain(stats.splitting, stats);
     EXPECT_NEAR(gain.mean_ratio, 1, 1e-6) << "alone they carry the same";
     EXPECT_NEAR(gain.variance, 1, 1e-6) << "of pixels across regions, whose scales differ";
     EXPECT_EQ(stats.rays - stats.split_path_rays, 6 * stats.paths);

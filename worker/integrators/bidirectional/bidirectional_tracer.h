@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/film/light_subpath_gain.h"
+#include "common/decide/light_subpaths/light_subpath_gain.h"
 #include "worker/integrators/bidirectional/light_subpath.h"
 #include "worker/integrators/bidirectional/sample_connections.h"
 #include "worker/integrators/subpath/sensor.h"

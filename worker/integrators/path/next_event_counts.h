@@ -6,7 +6,7 @@
 
 #include "common/base/policy.h"
 #include "common/base/random.h"
-#include "common/film/trace_stats.h"
+#include "common/decide/trace_stats.h"
 #include "worker/integrators/path/path_state.h"
 
 namespace treefarm {

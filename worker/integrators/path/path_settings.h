@@ -2,8 +2,8 @@
 #pragma once
 
 #include "common/base/policy.h"
+#include "common/decide/next_event/next_event_sums.h"
 #include "common/guiding/regions/region_sampler.h"
-#include "common/math/next_event_sums.h"
 #include "common/plan/resolve/resolve.h"
 #include "common/plan/schedule/schedule.h"
 #include "worker/integrators/subpath/roulette.h"

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <vector>
 
-#include "common/film/trace_stats.h"
+#include "common/decide/trace_stats.h"
 #include "worker/integrators/path/direction_choice.h"
 #include "worker/integrators/path/emission.h"
 #include "worker/integrators/path/emitter_choice.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "common/film/splitting_gain.h"
+#include "common/decide/splitting/splitting_gain.h"
 #include "common/guiding/any_guide.h"
 #include "common/plan/schedule/kernel.h"
 #include "worker/integrators/path/path_kernel.h"

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "common/decide/trace_stats.h"
 #include "common/film/pixel_estimate.h"
-#include "common/film/trace_stats.h"
 #include "common/film/work_unit.h"
 #include "common/guiding/any_guide.h"
 #include "common/plan/schedule/kernel.h"

@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/film/trace_stats.h"
+#include "common/decide/trace_stats.h"
 #include "common/plan/schedule/schedule.h"
 #include "worker/lights/emission_choice.h"
 
 namespace treefarm {
 
 /// Contributions of a unit's light paths to the image, summed by emitter: later passes choose emitters by these sums
-/// (common/film/emission_shares.h).
+/// (common/decide/emission/emission_shares.h).
 class EmissionRecord {
   public:
     /// `learns`: whether a later pass uses the sums.

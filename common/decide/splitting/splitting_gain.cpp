@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/film/splitting_gain.h"
+#include "common/decide/splitting/splitting_gain.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "common/base/policy.h"
+#include "common/math/saturating.h"
 
 namespace treefarm {
 namespace {
@@ -15,6 +18,13 @@ std::uint64_t in_split_units(double value) {
 }
 
 }  // namespace
+
+void SplittingSums::add(const SplittingSums& other) {
+    add_saturating(split_mean, other.split_mean);
+    add_saturating(unsplit_mean, other.unsplit_mean);
+    add_saturating(split_variance, other.split_variance);
+    add_saturating(unsplit_variance, other.unsplit_variance);
+}
 
 void PairedSamples::Sums::add(double value) {
     value = std::min(value, kMost);
@@ -41,12 +51,22 @@ void PairedSamples::finish(SplittingSums& sums) {
     *this = {};
 }
 
-SplittingGain splitting_gain(const TraceStats& stats) {
-    const SplittingSums& sums = stats.splitting;
+SplittingGain splitting_gain(const SplittingSums& sums, const TraceCounts& counts) {
     if (sums.split_variance == 0 || sums.split_mean == 0) return {};
     const auto ratio = [](std::uint64_t a, std::uint64_t b) { return static_cast<double>(a) / static_cast<double>(b); };
-    return {ratio(sums.unsplit_variance, sums.split_variance), ratio(stats.rays, stats.rays - stats.split_path_rays),
+    return {ratio(sums.unsplit_variance, sums.split_variance), ratio(counts.rays, counts.rays - counts.split_path_rays),
             ratio(sums.unsplit_mean, sums.split_mean)};
+}
+
+bool splitting_may_pay(const PassPlan& pass, const SplittingGain& gain) {
+    if (pass.spp < tuned<std::uint32_t>("splitting.least_spp") || gain.variance == 0 ||
+        gain.mean_ratio < tuned("splitting.least_found"))
+        return true;
+    if (gain.variance < tuned("splitting.least_quietened")) return false;
+    if (!pass.next_event) return gain.variance >= tuned("splitting.least_gain_alone") * gain.rays;
+    const double quieter = 1 + (gain.variance - 1) / tuned("splitting.shown_gain"),
+                 slower = 1 + (gain.rays - 1) * tuned("splitting.copy_ray_cost");
+    return quieter >= tuned("splitting.least_gain") * slower;
 }
 
 }  // namespace treefarm

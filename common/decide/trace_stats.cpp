@@ -1,38 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/film/trace_stats.h"
+#include "common/decide/trace_stats.h"
 
-#include <algorithm>
-
-#include "common/film/splat_film.h"
 #include "common/math/saturating.h"
 
 namespace treefarm {
-
-void SplittingSums::add(const SplittingSums& other) {
-    add_saturating(split_mean, other.split_mean);
-    add_saturating(unsplit_mean, other.unsplit_mean);
-    add_saturating(split_variance, other.split_variance);
-    add_saturating(unsplit_variance, other.unsplit_variance);
-}
-
-void LightSubpathSums::add(const LightSubpathSums& other) {
-    add_saturating(samples, other.samples);
-    add_saturating(both_mean, other.both_mean);
-    add_saturating(alone_mean, other.alone_mean);
-    add_saturating(both_variance, other.both_variance);
-    add_saturating(alone_variance, other.alone_variance);
-    add_saturating(alone_rays, other.alone_rays);
-}
-
-void EmissionSums::add(const EmissionSums& other) {
-    if (other.paths.empty()) return;
-    paths.resize(std::max(paths.size(), other.paths.size()));
-    squares.resize(paths.size());
-    for (std::size_t i = 0; i < other.paths.size(); ++i) {
-        paths[i] += other.paths[i];
-        squares[i] = std::min(squares[i] + other.squares[i], kMostSplatSum);
-    }
-}
 
 void TraceStats::add(const TraceStats& other) {
     paths += other.paths;

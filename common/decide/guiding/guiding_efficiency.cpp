@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/film/guiding_efficiency.h"
+#include "common/decide/guiding/guiding_efficiency.h"
 
 #include <algorithm>
 #include <cmath>

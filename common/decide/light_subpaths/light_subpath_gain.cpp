@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/film/light_subpath_gain.h"
+#include "common/decide/light_subpaths/light_subpath_gain.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "common/base/policy.h"
+#include "common/math/saturating.h"
 
 namespace treefarm {
 namespace {
@@ -27,6 +28,15 @@ double missed_light_noise(const LightSubpathSums& sums) {
 }
 
 }  // namespace
+
+void LightSubpathSums::add(const LightSubpathSums& other) {
+    add_saturating(samples, other.samples);
+    add_saturating(both_mean, other.both_mean);
+    add_saturating(alone_mean, other.alone_mean);
+    add_saturating(both_variance, other.both_variance);
+    add_saturating(alone_variance, other.alone_variance);
+    add_saturating(alone_rays, other.alone_rays);
+}
 
 void SubpathPairs::add(const Sample& sample) {
     constexpr double kMost = tuned("light_subpaths.most_of_mean");
@@ -62,12 +72,17 @@ double LightSubpathGain::at_equal_cost() const {
     return cost > 0 ? noise / cost : 0.0;
 }
 
-LightSubpathGain light_subpath_gain(const TraceStats& stats) {
-    const LightSubpathSums& sums = stats.light_subpaths;
+LightSubpathGain light_subpath_gain(const LightSubpathSums& sums, const TraceCounts& counts) {
     if (sums.both_variance == 0 || sums.both_mean == 0 || sums.alone_rays == 0) return {};
     const auto ratio = [](std::uint64_t a, std::uint64_t b) { return static_cast<double>(a) / static_cast<double>(b); };
     return {std::max(ratio(sums.alone_variance, sums.both_variance), missed_light_noise(sums)),
-            ratio(stats.rays + stats.shadow_rays, sums.alone_rays), ratio(sums.alone_mean, sums.both_mean)};
+            ratio(counts.rays + counts.shadow_rays, sums.alone_rays), ratio(sums.alone_mean, sums.both_mean)};
+}
+
+bool light_subpaths_may_pay(const PassPlan& pass, const LightSubpathGain& gain) {
+    if (pass.spp < tuned<std::uint32_t>("light_subpaths.least_spp") || gain.noise == 0) return true;
+    return gain.mean_ratio < tuned("light_subpaths.least_found") ||
+           gain.at_equal_cost() >= tuned("light_subpaths.least_gain");
 }
 
 }  // namespace treefarm

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "common/film/image_levels.h"
+#include "common/decide/pixels/image_levels.h"
 
 namespace treefarm {
 

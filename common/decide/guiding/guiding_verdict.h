@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/film/guiding_efficiency.h"
-#include "common/plan/schedule/schedule.h"
+#include "common/decide/guiding/guiding_efficiency.h"
+#include "common/decide/pass/pass_plan.h"
 
 namespace treefarm {
+
+/// Verdict on guiding from finished passes; never final.
+enum class Guiding {
+    open,   ///< it pays, or this is unknown: the next pass is guided
+    loses,  ///< the next pass is unguided
+};
 
 /// Verdict after a guided pass that trained: compares efficiency of guiding times `mistrust` with a limit. `mistrust`:
 /// factor by which unguided passes were noisier than guided samples had predicted. `before`: efficiency with the

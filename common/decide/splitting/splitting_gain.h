@@ -1,13 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/film/trace_stats.h"
+#include <cstdint>
+
+#include "common/decide/pass/pass_plan.h"
+#include "common/film/trace_counts.h"
 
 namespace treefarm {
 
 /// Measurement, by the render itself, of whether splitting of paths pays: a split path also gives the value that it
 /// would have had alone, so each camera path is two samples of its pixel, split and unsplit. Both come from the same
 /// paths and differ only by the splitting, so a few samples suffice.
+
+/// Sums over pixels of a pass that may split paths, with and without the split paths; whole units.
+struct SplittingSums {
+    std::uint64_t split_mean = 0, unsplit_mean = 0;
+    std::uint64_t split_variance = 0, unsplit_variance = 0;  ///< of one sample
+
+    void add(const SplittingSums& other);
+};
 
 /// Samples of a pixel, each of them split and unsplit.
 class PairedSamples {
@@ -37,6 +48,10 @@ struct SplittingGain {
     /// have missed rare light, and their noise is unknown.
     double mean_ratio = 0;
 };
-SplittingGain splitting_gain(const TraceStats& stats);
+SplittingGain splitting_gain(const SplittingSums& sums, const TraceCounts& counts);
+
+/// Whether splitting may pay, after a pass with this gain. A negative answer is final, since without splitting there
+/// are no new measurements.
+bool splitting_may_pay(const PassPlan& pass, const SplittingGain& gain);
 
 }  // namespace treefarm

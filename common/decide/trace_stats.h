@@ -5,9 +5,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/film/guiding_efficiency.h"
+#include "common/decide/emission/emission_shares.h"
+#include "common/decide/guiding/guiding_efficiency.h"
+#include "common/decide/light_subpaths/light_subpath_gain.h"
+#include "common/decide/next_event/next_event_sums.h"
+#include "common/decide/splitting/splitting_gain.h"
 #include "common/film/tail_samples.h"
-#include "common/math/next_event_sums.h"
+#include "common/film/trace_counts.h"
 
 namespace treefarm {
 
@@ -29,46 +33,8 @@ enum class TracePhase : std::uint8_t {
 };
 inline constexpr std::size_t kTracePhases = 5;
 
-/// Sums over pixels of a pass that may split paths, with and without the split paths (splitting_gain.h); whole units.
-struct SplittingSums {
-    std::uint64_t split_mean = 0, unsplit_mean = 0;
-    std::uint64_t split_variance = 0, unsplit_variance = 0;  ///< of one sample
-
-    void add(const SplittingSums& other);
-};
-
-/// Sums over pixels of a pass whose samples are also known without their light subpaths (light_subpath_gain.h); whole
-/// units.
-struct LightSubpathSums {
-    std::uint64_t samples = 0;  ///< number of samples behind the next four sums
-    std::uint64_t both_mean = 0, alone_mean = 0;
-    std::uint64_t both_variance = 0, alone_variance = 0;  ///< of one sample
-    std::uint64_t alone_rays = 0;  ///< rays of samples without light subpaths, shadow rays included
-
-    void add(const LightSubpathSums& other);
-    bool operator==(const LightSubpathSums&) const = default;
-};
-
-/// Contributions of light paths, by the entry of the emission table at which each started (emission_shares.h); empty
-/// unless requested.
-struct EmissionSums {
-    std::vector<std::uint64_t> paths;
-    /// Squares of the contribution of each path, as if emitters were chosen by power; saturates at kMostSplatSum.
-    std::vector<std::uint64_t> squares;
-
-    void add(const EmissionSums& other);
-};
-
 /// Figures of tracing some units: counts are exact sums; seconds are measured and never influence a result.
-struct TraceStats {
-    std::uint64_t paths = 0;
-    std::uint64_t nonzero_paths = 0;  ///< paths with any radiance
-    std::uint64_t rays = 0;           ///< closest-hit rays
-    std::uint64_t shadow_rays = 0;
-    std::uint64_t vertices = 0;         ///< surface vertices at which a direction was sampled
-    std::uint64_t records = 0;          ///< vertices recorded for the guide
-    std::uint64_t split_path_rays = 0;  ///< rays of split paths, within `rays`
-    std::uint64_t invalid_samples = 0;
+struct TraceStats : TraceCounts {
     NextEventSums next_event{};  ///< filled if a decision on next event needs it; moments only in passes that do not
                                  ///< record by region
     SplittingSums splitting;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/film/image_levels.h"
+#include "common/decide/pixels/image_levels.h"
 
 #include <algorithm>
 #include <numeric>

@@ -3,8 +3,9 @@
 
 #include <cstdint>
 
-#include "common/film/guiding_efficiency.h"
-#include "common/plan/schedule/schedule.h"
+#include "common/decide/guiding/guiding_efficiency.h"
+#include "common/decide/guiding/guiding_verdict.h"
+#include "common/decide/pass/pass_plan.h"
 
 namespace treefarm {
 

@@ -2,15 +2,24 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
-
-#include "common/film/trace_stats.h"
 
 namespace treefarm {
 
 /// Probability with which light paths start at each emitter, from the contributions of earlier passes: noise is least
 /// if an emitter is chosen in proportion to the root of its paths' second moment (docs/design/transport.md). Computed
 /// from exact sums and fixed during a pass, so it does not depend on the farm.
+
+/// Contributions of light paths, by the entry of the emission table at which each started; empty unless
+/// requested.
+struct EmissionSums {
+    std::vector<std::uint64_t> paths;
+    /// Squares of the contribution of each path, as if emitters were chosen by power; saturates at kMostSplatSum.
+    std::vector<std::uint64_t> squares;
+
+    void add(const EmissionSums& other);
+};
 
 /// Factor of each entry's probability by power, before normalisation; empty if there are no data, or no choice.
 std::vector<float> emission_emphasis(const EmissionSums& sums);

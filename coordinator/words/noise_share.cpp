@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/film/noise_share.h"
+#include "coordinator/words/noise_share.h"
 
 #include <algorithm>
 #include <functional>

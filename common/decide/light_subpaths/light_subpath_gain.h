@@ -1,13 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/film/trace_stats.h"
+#include <cstdint>
+
+#include "common/decide/pass/pass_plan.h"
+#include "common/film/trace_counts.h"
 
 namespace treefarm {
 
 /// Measurement, by the render itself, of whether light subpaths pay: a bidirectional sample also gives the value of its
 /// camera path alone, weighted as next event and scattering would do between themselves. Both values come from the same
 /// path, so a few samples suffice.
+
+/// Sums over pixels of a pass whose samples are also known without their light subpaths; whole units.
+struct LightSubpathSums {
+    std::uint64_t samples = 0;  ///< number of samples behind the next four sums
+    std::uint64_t both_mean = 0, alone_mean = 0;
+    std::uint64_t both_variance = 0, alone_variance = 0;  ///< of one sample
+    std::uint64_t alone_rays = 0;  ///< rays of samples without light subpaths, shadow rays included
+
+    void add(const LightSubpathSums& other);
+    bool operator==(const LightSubpathSums&) const = default;
+};
 
 /// Samples of a pixel, each with its light subpath and without.
 class SubpathPairs {
@@ -44,6 +58,9 @@ struct LightSubpathGain {
     /// Ratio of noise at equal cost, without light subpaths over with them: above 1 they pay. 0: unknown.
     double at_equal_cost() const;
 };
-LightSubpathGain light_subpath_gain(const TraceStats& stats);
+LightSubpathGain light_subpath_gain(const LightSubpathSums& sums, const TraceCounts& counts);
+
+/// Whether light subpaths may pay, after a pass with this gain. A negative answer is final.
+bool light_subpaths_may_pay(const PassPlan& pass, const LightSubpathGain& gain);
 
 }  // namespace treefarm

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/passes/guiding_memory.h"
+#include "common/decide/guiding/guiding_memory.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "common/base/policy.h"
-#include "common/plan/schedule/guiding_verdict.h"
 
 namespace treefarm {
-namespace {}  // namespace
 
 GuidingVerdict GuidingMemory::after_guided(const PassPlan& pass, const GuidingEvidence& evidence) {
     const GuidingEfficiency own = evidence.efficiency();

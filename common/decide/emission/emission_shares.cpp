@@ -1,12 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/film/emission_shares.h"
+#include "common/decide/emission/emission_shares.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numeric>
 
+#include "common/film/splat_film.h"
+
 namespace treefarm {
+
+void EmissionSums::add(const EmissionSums& other) {
+    if (other.paths.empty()) return;
+    paths.resize(std::max(paths.size(), other.paths.size()));
+    squares.resize(paths.size());
+    for (std::size_t i = 0; i < other.paths.size(); ++i) {
+        paths[i] += other.paths[i];
+        squares[i] = std::min(squares[i] + other.squares[i], kMostSplatSum);
+    }
+}
 
 std::vector<float> emission_emphasis(const EmissionSums& sums) {
     double paths = 0, squares = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/plan/schedule/guiding_verdict.h"
+#include "common/decide/guiding/guiding_verdict.h"
 
 #include <algorithm>
 #include <cmath>
