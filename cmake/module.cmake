@@ -4,9 +4,19 @@
 # is not linked is not on the include path of its dependents' link line, and tests/unit/tree/arrows_test checks the includes too.
 function(treefarm_module NAME)
     cmake_parse_arguments(MODULE "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
-    add_library(tf_${NAME} STATIC ${MODULE_SOURCES})
-    target_include_directories(tf_${NAME} PUBLIC ${PROJECT_SOURCE_DIR})
-    target_link_libraries(tf_${NAME} PUBLIC treefarm_flags ${MODULE_LINKS} PRIVATE ${MODULE_PRIVATE_LINKS})
+    set(target tf_${NAME})
+    set(in_all)
+    if(TREEFARM_COLD_OF AND NAME IN_LIST TREEFARM_COLD_MODULES)
+        cmake_path(RELATIVE_PATH CMAKE_CURRENT_BINARY_DIR BASE_DIRECTORY ${PROJECT_BINARY_DIR} OUTPUT_VARIABLE folder)
+        add_library(${target} STATIC IMPORTED GLOBAL)
+        set_target_properties(${target} PROPERTIES IMPORTED_LOCATION ${TREEFARM_COLD_OF}/${folder}/lib${target}.a)
+        target_link_libraries(${target} INTERFACE treefarm_flags ${MODULE_LINKS} ${MODULE_PRIVATE_LINKS})
+        string(APPEND target _unbuilt)
+        set(in_all EXCLUDE_FROM_ALL)  # its compile commands are there, for tests/tools/syntax_pass
+    endif()
+    add_library(${target} STATIC ${in_all} ${MODULE_SOURCES})
+    target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
+    target_link_libraries(${target} PUBLIC treefarm_flags ${MODULE_LINKS} PRIVATE ${MODULE_PRIVATE_LINKS})
 endfunction()
 
 # treefarm_folders(NAME IN ... LINKS ... PRIVATE_LINKS ...)

@@ -15,6 +15,9 @@ option(TREEFARM_WERROR "treat warnings as errors" ON)
 set(TREEFARM_ARCH "x86-64-v3" CACHE STRING "value of -march: x86-64-v3 is portable, native is not")
 set(TREEFARM_SANITIZE "" CACHE STRING "address, undefined or thread: build with that sanitizer")
 option(TREEFARM_TRAP "end the process at invalid operations, divisions by zero and overflows of floats" OFF)
+# What computes no bit of an image or of a message: reading and writing of files, words, pages.
+set(TREEFARM_COLD_MODULES runs config plan input coordinator report serve cli)
+set(TREEFARM_COLD_OF "" CACHE PATH "a finished build whose libraries of these modules are linked, instead of compiling them")
 option(TREEFARM_FUZZ "build the fuzz targets with libFuzzer too; needs clang" OFF)
 
 include(cmake/refuse_fast_math.cmake)

@@ -81,7 +81,7 @@ TEST_F(InspectCommand, TheTruthIsWhatThePixelShows) {
         int x, y;  ///< sees a plain wall
     };
     for (const Case& c :
-         {Case{"cornell-box.xml -D size=32", 4, 12}, Case{"glossy-room.xml -D width=96 -D height=64", 70, 30}}) {
+         {Case{"cornell-box.xml -D size=32", 4, 12}, Case{"glossy-room.xml -D width=48 -D height=32", 35, 15}}) {
         // Enough samples: at 255 spp nine pixels of the glossy room deviate by 4 % (one standard error).
         render(test::own_scene("") + c.scene + " --spp 1023 --set guiding.type=ppg");
         const RgbImage image = read_exr_rgb(run_ + "/image.exr").image;
