@@ -43,7 +43,7 @@ bool is_previous(const fs::path& path) {
 
 /// Whether a render writes an entry of this name again and again.
 bool is_of_render_at_work(const std::string& name) {
-    for (const char* own : {kPreviewFile, kImageFile, kTreeFile, kCheckpointFolder})
+    for (const char* own : {kScheduleFile, kPreviewFile, kImageFile, kTreeFile, kSummaryFile, kCheckpointFolder})
         if (name == own) return true;
     return false;
 }

@@ -103,7 +103,8 @@ TEST(RunFolder, StudiesAndOtherFilesAreNeverReplaced) {
 
 /// A run directory that is removed while it is rendered keeps what the render writes meanwhile.
 TEST(RunFolder, FilesOfARenderWithoutItsStatusAreThatRender) {
-    for (const char* left : {"preview.png", "image.exr", "tree.bin", "checkpoint/state"}) {
+    for (const char* left :
+         {"schedule.toml", "preview.png", "image.exr", "tree.bin", "summary.json", "checkpoint/state"}) {
         const fs::path folder = test::fresh_test_folder();
         test::write_file(folder / left, "half");
         EXPECT_EQ(folder_content(folder), FolderContent::render) << left;
