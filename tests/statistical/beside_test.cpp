@@ -136,7 +136,7 @@ typename G::Model taught(Light light, std::uint32_t passes) {
 
 const Vec3 kLamp = normalize(Vec3(0.5f, -0.2f, 0.9f));
 /// A lamp of the lobe's shape, and little light elsewhere.
-float lamp(const Vec3& d) {
+float lobe_lamp(const Vec3& d) {
     return 0.02f + std::exp(20 * (dot(d, kLamp) - 1));
 }
 
@@ -150,7 +150,7 @@ TYPED_TEST(BesideWalks, DirectionsFollowTheMixture) {
     using Draws = BesideDraws<TypeParam>;
     using Walk = typename Draws::Walk;
     for (const std::uint32_t passes : {0u, 1u, 4u}) {
-        Draws draws(taught<TypeParam>(lamp, passes));
+        Draws draws(taught<TypeParam>(lobe_lamp, passes));
         std::array<int, Walk::List::kFurther + 2> drawn_by{};
         const auto sample = [&](std::uint32_t i, Vec3& d) {
             typename Walk::Scatter s;
@@ -185,7 +185,7 @@ TEST(BesideMixture, LearnsWhatEachIsGoodFor) {
     const auto two_lamps = [&](const Vec3& d) {  // their mean direction is dark
         return 0.01f + std::exp(40 * (dot(d, left) - 1)) + std::exp(40 * (dot(d, right) - 1));
     };
-    const BesideDraws<Pair> fits(taught<Pair>(lamp, 6)), useless(taught<Pair>(two_lamps, 6));
+    const BesideDraws<Pair> fits(taught<Pair>(lobe_lamp, 6)), useless(taught<Pair>(two_lamps, 6));
     EXPECT_GT(lobe_fraction(fits), 0.5f);
     EXPECT_LT(lobe_fraction(useless), 0.1f);
     const BesideDraws<GridGuide> alone(taught<GridGuide>(two_lamps, 6));

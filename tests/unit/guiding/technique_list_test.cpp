@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <random>
 
+#include "common/guiding/statistics/cell_sums.h"
+#include "common/math/direction_map.h"
+
 namespace treefarm {
 namespace {
 
