@@ -19,9 +19,8 @@ struct ListWalk {
     using Direction = typename List::Direction;
     using Bins = typename List::Bins;
     static constexpr bool kLocal = List::kFurther != 0;
-    struct Nothing {};
     /// Z-order code of the outgoing direction, if a technique needs it.
-    using Outgoing = std::conditional_t<kLocal, std::uint32_t, Nothing>;
+    using Outgoing = std::uint32_t;
 
     using Further = std::array<std::uint32_t, List::kFurther>;
     template <class Values>

@@ -9,7 +9,7 @@ namespace treefarm {
 ///
 ///   sample_square(std::uint32_t region, std::uint32_t pick, std::uint32_t u0, std::uint32_t u1) const
 ///           three uniform numbers; a point `at` of the direction square, its Z-order `code`, and the density `pdf` per
-///           steradian of its direction, or 0 if the draw failed
+///           steradian of its direction, above 0
 ///   float pdf(std::uint32_t region, std::uint32_t code) const
 ///           density per steradian of the direction with this code, equal to the one that sample_square() returned
 ///   float radiance(std::uint32_t region, std::uint32_t code) const

@@ -174,11 +174,12 @@ class TechniqueBatch {
             square_y_[square_count_] = drawn.at.y;
             if constexpr (kFurther) points_[square_count_] = {&guidance, &s};
             ++square_count_;
+            return true;
         } else {
             s.world = drawn.direction;
             s.conversion = codes_.add(s.world, guidance);
+            return drawn.pdf > 0.0f;
         }
-        return drawn.pdf > 0.0f;
     }
 
     /// Sets direction and code of a sample of the guide; one of both is known.

@@ -47,7 +47,9 @@ inline std::uint32_t code_of(const CodedDirection& direction) {
 ///   find(guide, surface, position, outgoing, region, code, local)   looks up Local::distribution at a vertex; `code`
 ///                                                                   receives the outgoing direction's if it is needed
 ///   fraction(guide, local), least_bsdf_fraction(guide, local)       learned; the techniques before it share the rest
-///   sample(guide, local, random)     random[1] to [3] are uniform; point or direction, with its density, or 0: failed
+///   sample(guide, local, random)     random[1] to [3] are uniform; point or direction with its density, which is 0 if
+///   a
+///                                    direction could not be drawn
 ///   pdf(guide, local, direction)     the same density per steradian; `direction`: its code if kOnSquare, else a vector
 ///   moved(guide, region, code, distribution)                        distribution in another region, for records
 ///   prefetch(), prefetch_more(), prefetch_pdf(), prefetch_pdf_more()   data of sample() and pdf(), in two steps
@@ -64,9 +66,14 @@ struct TechniqueList {
     template <class T, class Technique>
     using With = TechniqueList<T, Further..., Technique>;
 
+    struct Nothing {};
+    /// Lists without further techniques have the layout of those with one: a PathState of 512 or 520 bytes takes more
+    /// instructions to address.
+    using Spare = std::conditional_t<kFurther == 0, std::uint64_t, Nothing>;
     struct Region {
         std::uint32_t region;
         float bsdf_fraction;  ///< probability of sampling the BSDF
+        [[no_unique_address]] Spare spare{};
     };
     /// Guidance at a vertex.
     struct Guidance : Region, Further::Local... {
@@ -75,13 +82,13 @@ struct TechniqueList {
             ((static_cast<typename Further::Local&>(*this).fraction = 0.0f), ...);
         }
     };
-    using FurtherPdfs = std::array<float, kFurther>;
+    using FurtherPdfs = std::array<float, std::max<std::size_t>(kFurther, 1)>;
     /// A sampled direction with its densities.
     struct Scatter : ScatterSample {
-        std::uint32_t code;                             ///< Z-order code of the direction, if the guide is used
-        std::uint32_t conversion;                       ///< index in the batch's conversions
-        std::uint8_t technique;                         ///< if `guided`: index of the further one that drew it, plus 1
-        [[no_unique_address]] FurtherPdfs further_pdf;  ///< of the further techniques, if they guide; 0: none here
+        FurtherPdfs further_pdf;   ///< of the further techniques, if they guide; 0: none here
+        std::uint32_t code;        ///< Z-order code of the direction, if the guide is used
+        std::uint32_t conversion;  ///< index in the batch's conversions
+        std::uint8_t technique;    ///< if `guided`: index of the further one that drew it, plus 1
     };
     using Direction = std::conditional_t<kOnSquare, std::uint32_t, CodedDirection>;
     /// Bins of a direction in the histograms by which the techniques' fractions are learned.
