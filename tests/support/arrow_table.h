@@ -20,7 +20,7 @@ inline const std::vector<std::vector<std::string>> kFloors = {
     {"common/metrics", "common/guiding/regions", "common/decide/pixels", "common/decide/emission", "common/decide/pass",
      "common/scene/kinds/emitters", "common/scene/kinds/materials", "common/scene/kinds/shapes",
      "common/scene/kinds/textures"},
-    {"common/metrics/flip", "common/guiding/grid", "common/guiding/qtable", "common/guiding/sd_tree",
+    {"common/metrics/flip", "common/guiding/beside", "common/guiding/grid", "common/guiding/qtable", "common/guiding/sd_tree",
      "common/decide/guiding", "common/decide/splitting", "common/decide/light_subpaths", "common/scene/kinds"},
     {"common/guiding", "common/decide"},
     {"common/config", "common/scene/model"},

@@ -242,7 +242,7 @@ class PathWalk {
         ++stats_.vertices;
         path.guidance.bsdf_fraction = kGuided && surface.smooth() ? guide_.bsdf_fraction(path.guidance.region) : 1.0f;
         if constexpr (kLocal)
-            G::template localise<kGuided>(guide_, surface, -ray.direction, path.outgoing, path.guidance);
+            G::template localise<kGuided>(guide_, surface, hit.p, -ray.direction, path.outgoing, path.guidance);
         if constexpr (kGuided && kLocal) directions_.prefetch_local(path);
         if constexpr (kRecord)
             if (surface.smooth() && !guide_.contains(hit.p)) recorders_[index].add_outside();
