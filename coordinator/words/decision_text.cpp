@@ -55,7 +55,7 @@ DecisionText guiding(Guiding verdict, const GuidingEfficiency& w) {
 
 /// Adds the decision on next event, unless an emitter is sampled at nearly each vertex.
 void add_next_event(const PassReport& r, std::vector<DecisionText>& texts) {
-    const NextEventVerdict& verdict = r.refine.next_event;
+    const NextEventVerdict& verdict = r.decisions.get<NextEventDecision::Figures>().verdict;
     const bool saves = verdict.saved <= 0.98;
     if (!saves && (verdict.low < 0.005 || !r.plan.guided)) return;
     std::string words = "next event ";
@@ -72,8 +72,8 @@ void add_next_event(const PassReport& r, std::vector<DecisionText>& texts) {
 }
 
 void add_splitting(const PassReport& r, std::vector<DecisionText>& texts) {
-    if (!r.plan.split || r.splitting) return;
-    const SplittingGain& gain = r.splitting_gain;
+    const auto& [gain, pays] = r.decisions.get<SplittingDecision::Figures>();
+    if (!r.plan.split || pays) return;
     std::string why = "unsplit samples would have " + variance_ratio(gain.variance);
     if (gain.variance >= tuned("splitting.least_quietened")) {
         why += fmt::format(" for {:.2g} of the rays", 1 / gain.rays);
@@ -83,20 +83,22 @@ void add_splitting(const PassReport& r, std::vector<DecisionText>& texts) {
 }
 
 void add_light_subpaths(const PassReport& r, std::vector<DecisionText>& texts) {
-    const double quieter = r.light_subpath_gain.at_equal_cost();
-    if (!r.has_light_subpaths() || quieter == 0) return;
+    const auto& [gain, pays] = r.decisions.get<LightSubpathDecision::Figures>();
+    const double quieter = gain.at_equal_cost();
+    if (!has_light_subpaths(r.plan) || quieter == 0) return;
     const std::string noise =
         fmt::format("{:.2g} times {}", std::max(quieter, 1 / quieter), quieter < 1 ? "the variance" : "less variance");
     texts.push_back(
         {"light subpaths", fmt::format("{}paths from lamps make {} at equal cost, found by samples that have both",
-                                       r.light_subpaths ? "" : "paths from the camera alone: ", noise)});
+                                       pays ? "" : "paths from the camera alone: ", noise)});
 }
 
 }  // namespace
 
 std::vector<DecisionText> decision_texts(const PassReport& report) {
     std::vector<DecisionText> texts;
-    if (report.guiding_efficiency.efficiency > 0) texts.push_back(guiding(report.guiding, report.guiding_efficiency));
+    const auto& [verdict, efficiency] = report.decisions.get<GuidingVerdict>();
+    if (efficiency.efficiency > 0) texts.push_back(guiding(verdict, efficiency));
     add_next_event(report, texts);
     add_splitting(report, texts);
     add_light_subpaths(report, texts);

@@ -139,6 +139,13 @@ Resolved resolve(const Job& job, const Scene& scene) {
     return resolve(job, facts_of(scene));
 }
 
+DecisionRules decision_rules(const Resolved& job) {
+    return {.guiding = job.guiding.rule == Rule::while_it_pays,
+            .splitting = job.guiding.splitting_rule == Rule::while_it_pays,
+            .next_event = job.decides_next_event,
+            .light_subpaths = job.bidirectional.light_subpaths == Rule::while_it_pays};
+}
+
 std::string guiding_word(const Resolved& job) {
     Job asked = job;
     if (job.guiding.type == GuidingType::view && job.guiding.rule == Rule::while_it_pays)

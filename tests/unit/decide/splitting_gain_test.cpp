@@ -13,6 +13,7 @@
 #include "common/film/splat_film.h"
 #include "common/plan/forecast/budget.h"
 #include "common/plan/schedule/schedule.h"
+#include "tests/support/losing_pass.h"
 #include "tests/support/resolved.h"
 #include "worker/integrators/path/split_paths.h"
 
@@ -117,17 +118,15 @@ TEST(SplittingGain, HasToShowMoreWithNextEvent) {
 TEST(SplittingGain, WhatTheJobAsksForIsDone) {
     Job job;
     PassPlan pass = make_pass(test::resolved(job), 5, 31, 32, false);
-    set_splitting(pass, test::resolved(job), false);
-    EXPECT_FALSE(pass.split);
-    set_splitting(pass, test::resolved(job), true);
+    EXPECT_FALSE(test::after_losing_pass(test::resolved(job), pass).split);
+    Decisions::apply(pass, {}, true);
     EXPECT_TRUE(pass.split);
     job.guiding.splitting = 4;
-    set_splitting(pass, test::resolved(job), false);
-    EXPECT_TRUE(pass.split);
+    EXPECT_TRUE(test::after_losing_pass(test::resolved(job), pass).split);
     job.guiding.splitting = 0;
     job.budget.spp = 31;
     RenderHistory state;
-    state.splitting = false;
+    state.decisions.get<SplittingDecision::Memory>().pays = false;
     EXPECT_FALSE(passes_of(test::resolved(job))(state).pass->split);
 }
 
@@ -207,7 +206,7 @@ TEST(LightSubpathGain, WhatTheJobAsksForIsDone) {
     job.integrator.type = "bidirectional";
     const auto next = [](const Resolved& resolved) {
         RenderHistory state;
-        state.light_subpaths = false;
+        state.decisions = test::after_losing_pass(resolved);
         return *passes_of(resolved)(state).pass;
     };
     EXPECT_FALSE(next(test::resolved(job)).light_subpaths);

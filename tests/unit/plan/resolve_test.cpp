@@ -12,6 +12,7 @@
 #include "common/config/job_reader.h"
 #include "common/plan/resolve/resolved_file.h"
 #include "common/plan/schedule/schedule.h"
+#include "tests/support/losing_pass.h"
 #include "tests/support/refusal.h"
 
 namespace treefarm {
@@ -101,10 +102,7 @@ TEST(Resolve, WhatASceneDoesNotCallForIsNotLearned) {
 TEST(Resolve, ARuleSaysWhenGuidingAndSplittingMayEnd) {
     const auto pass_of = [](const Job& job) {
         const Resolved resolved = resolve(job, glossy());
-        PassPlan pass = make_pass(resolved, 3, 7, 8, false);
-        set_guiding(pass, resolved, Guiding::loses);
-        set_splitting(pass, resolved, false);
-        return pass;
+        return test::after_losing_pass(resolved, make_pass(resolved, 3, 7, 8, false));
     };
     EXPECT_FALSE(pass_of(Job()).guided);
     EXPECT_TRUE(pass_of(with({{"guiding.rule", "always"}})).guided);
