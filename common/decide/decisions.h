@@ -4,13 +4,17 @@
 #include <array>
 #include <concepts>
 #include <iterator>
+#include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
+#include "common/base/policy.h"
 #include "common/decide/emission/emission_decision.h"
 #include "common/decide/guiding/guiding_decision.h"
 #include "common/decide/light_subpaths/light_subpath_decision.h"
 #include "common/decide/next_event/next_event_decision.h"
+#include "common/decide/sample_cost.h"
 #include "common/decide/splitting/splitting_decision.h"
 #include "common/decide/trace_stats.h"
 
@@ -19,6 +23,7 @@ namespace treefarm {
 /// Requirements of a decision: what a finished pass changes in later ones. `Evidence` are the sums of a pass that it
 /// judges by (TraceStats::sums()), `Memory` outlives the pass, `Figures` are reported with it. Memory and figures
 /// archive themselves, for checkpoints: serialize(), which throws FormatError for values read that no render has.
+/// Tables of tuned constants are listed in `kConstants`, if it has any.
 template <class D>
 concept Decision = std::default_initializable<typename D::Memory> && std::default_initializable<typename D::Figures> &&
     requires(const JudgedPass& pass, const typename D::Evidence& evidence, typename D::Memory& memory,
@@ -57,6 +62,7 @@ struct DecisionList {
     using Figures = DecisionParts<typename D::Figures...>;
 
     static void judge(JudgedPass pass, const TraceStats& stats, Memories& memories, Figures& figures) {
+        pass.sample_cost = sample_cost(pass.plan, pass.counts);
         const auto judge_one = [&]<class One>() {
             auto& memory = memories.template get<typename One::Memory>();
             One::judge(pass, stats.sums<typename One::Evidence>(), memory,
@@ -69,6 +75,17 @@ struct DecisionList {
     /// Applies the decisions that schedule.toml has (`scheduled`), or the others, to the plan of the next pass.
     static void apply(PassPlan& plan, const Memories& memories, bool scheduled) {
         (..., (D::kScheduled == scheduled ? D::apply(plan, memories.template get<typename D::Memory>()) : void()));
+    }
+
+    /// Tables of tuned constants of all decisions.
+    static std::vector<std::span<const policy::Constant>> constants() {
+        std::vector<std::span<const policy::Constant>> tables;
+        const auto add = [&]<class One>() {
+            if constexpr (requires { One::kConstants; })
+                tables.insert(tables.end(), std::begin(One::kConstants), std::end(One::kConstants));
+        };
+        (add.template operator()<D>(), ...);
+        return tables;
     }
 
     /// Columns of all decisions.
@@ -97,6 +114,6 @@ struct DecisionList {
 
 /// The decisions of the program. Next event depends on the new verdict on guiding.
 using Decisions =
-    DecisionList<GuidingDecision, SplittingDecision, NextEventDecision, LightSubpathDecision, EmissionDecision>;
+    DecisionList<GuidingDecision, NextEventDecision, SplittingDecision, LightSubpathDecision, EmissionDecision>;
 
 }  // namespace treefarm

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/policy.h"
+#include "common/decide/guiding/guiding_constants.h"
+#include "common/decide/next_event/next_event_constants.h"
+#include "common/decide/splitting/splitting_constants.h"
 
 namespace treefarm {
 
@@ -36,7 +38,7 @@ DecisionText guiding(Guiding verdict, const GuidingEfficiency& w) {
         fmt::format("an unguided sample would have {} of a guided one, at {:.2g} of its cost",
                     variance_ratio(w.unguided_variance / w.guided_variance), w.unguided_cost / w.guided_cost);
     const char* const what = guided ? "guided" : "unguided";
-    const bool too_little = w.known < tuned("guiding.least_known");
+    const bool too_little = w.known < tuned<policy::kGuiding>("guiding.least_known");
     if (guided && (too_little || saved(w.efficiency) <= 0))
         return {
             "guiding",
@@ -67,7 +69,7 @@ void add_next_event(const PassReport& r, std::vector<DecisionText>& texts) {
     if (saves)
         words +=
             fmt::format(", which saves about {:.0f} % of the work (by {:.2g} standard errors wherever it is rarer)",
-                        100 * (1 - verdict.saved), tuned("next_event.standard_errors"));
+                        100 * (1 - verdict.saved), tuned<policy::kNextEvent>("next_event.standard_errors"));
     texts.push_back({"next event", std::move(words)});
 }
 
@@ -75,7 +77,7 @@ void add_splitting(const PassReport& r, std::vector<DecisionText>& texts) {
     const auto& [gain, pays] = r.decisions.get<SplittingDecision::Figures>();
     if (!r.plan.split || pays) return;
     std::string why = "unsplit samples would have " + variance_ratio(gain.variance);
-    if (gain.variance >= tuned("splitting.least_quietened")) {
+    if (gain.variance >= tuned<policy::kSplitting>("splitting.least_quietened")) {
         why += fmt::format(" for {:.2g} of the rays", 1 / gain.rays);
         if (r.plan.next_event) why += ", and copies cost more than their rays";
     }

@@ -7,8 +7,9 @@
 #include <string>
 #include <tuple>
 
-#include "common/base/policy.h"
 #include "common/config/job_reader.h"
+#include "common/decide/guiding/guiding_constants.h"
+#include "common/decide/next_event/next_event_constants.h"
 #include "common/decide/pixels/image_levels.h"
 #include "common/metrics/z_test.h"
 #include "coordinator/input/load.h"
@@ -103,8 +104,8 @@ TEST(Guided, PathsTellTheVarianceAndCostOfUnguidedOnes) {
     EXPECT_NEAR(told.unguided_variance / mean_variance(unguided.passes.back().pixels, levels, 48), 1, 0.25);
     const TraceStats& stats = unguided.stats.back();
     const double paths = 48.0 * 48.0 * plan.spp;
-    const double cost = (static_cast<double>(stats.rays) +
-                         tuned("next_event.shadow_ray_cost") * static_cast<double>(stats.shadow_rays)) /
+    const double cost = (static_cast<double>(stats.rays) + tuned<policy::kNextEvent>("next_event.shadow_ray_cost") *
+                                                               static_cast<double>(stats.shadow_rays)) /
                         paths;
     EXPECT_NEAR(told.unguided_cost / cost, 1, 0.05);
 }
@@ -121,7 +122,7 @@ TEST(Guided, PathsAreKeptWhileTreesGetBetter) {
     EXPECT_TRUE(run.plans.back().guided);
     const double early = run.reports.at(3).decisions.get<GuidingVerdict>().efficiency.efficiency,
                  late = run.reports.at(5).decisions.get<GuidingVerdict>().efficiency.efficiency;
-    EXPECT_LT(early, tuned("guiding.giving_up")) << "or this scene shows nothing";
+    EXPECT_LT(early, tuned<policy::kGuiding>("guiding.giving_up")) << "or this scene shows nothing";
     EXPECT_GT(late, early);
 }
 

@@ -9,7 +9,7 @@ void GuidingDecision::judge(const JudgedPass& pass, const Evidence& sums, Memory
         const GuidingVerdict judged =
             plan.guided
                 ? memory.passes.after_guided(
-                      plan, guiding_evidence(sums, pass.pixels, pass.told, pass.width, pass.sample_cost()))
+                      plan, guiding_evidence(sums, pass.pixels, pass.told, pass.width, pass.sample_cost))
                 : memory.passes.after_unguided(plan, mean_variance(pass.pixels, pass.told, pass.width), memory.verdict);
         memory.verdict = judged.guiding;
         figures.efficiency = judged.efficiency;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "common/base/error.h"
+#include "common/decide/guiding/guiding_constants.h"
 #include "common/decide/guiding/guiding_memory.h"
 #include "common/decide/pass/judged_pass.h"
 #include "common/decide/pass/pass_figure.h"
@@ -28,6 +31,7 @@ struct GuidingDecision {
 
     using Figures = GuidingVerdict;
 
+    static constexpr std::span<const policy::Constant> kConstants[] = {policy::kGuiding};
     static constexpr bool kScheduled = true;
     static void judge(const JudgedPass& pass, const Evidence& sums, Memory& memory, Figures& figures);
     /// If guiding loses, a pass is unguided and teaches nothing.

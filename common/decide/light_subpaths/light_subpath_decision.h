@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
+#include "common/decide/light_subpaths/light_subpath_constants.h"
 #include "common/decide/light_subpaths/light_subpath_gain.h"
 #include "common/decide/pass/judged_pass.h"
 #include "common/decide/pass/pass_figure.h"
@@ -40,6 +43,7 @@ struct LightSubpathDecision {
         }
     };
 
+    static constexpr std::span<const policy::Constant> kConstants[] = {policy::kLightSubpaths};
     static constexpr bool kScheduled = true;
     static void judge(const JudgedPass& pass, const Evidence& sums, Memory& memory, Figures& figures);
     static void apply(PassPlan& plan, const Memory& memory);

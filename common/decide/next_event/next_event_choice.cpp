@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "common/base/policy.h"
+#include "common/decide/next_event/next_event_constants.h"
 
 namespace treefarm {
 namespace {
@@ -22,14 +22,16 @@ double rays(const NextEventEvidence& e, std::size_t choice) {
     const double drawn = e[kNextEventDrawn];
     const double traced = drawn > 0 ? e[kNextEventTraced] / drawn : 1.0;
     return e[kNextEventAsked] * static_cast<double>(kNextEventSamples[choice]) *
-           (tuned("next_event.sample_cost") + tuned("next_event.shadow_ray_cost") * traced);
+           (tuned<policy::kNextEvent>("next_event.sample_cost") +
+            tuned<policy::kNextEvent>("next_event.shadow_ray_cost") * traced);
 }
 
 /// Standard error of the change in noise from one choice to another.
 double doubt(const NextEventEvidence& e, std::size_t from, std::size_t to) {
     const double all = moment(e, kChoices - 1) - moment(e, 0);
     const double part = std::abs(moment(e, to) - moment(e, from));
-    return all > 0 ? tuned("next_event.standard_errors") * std::sqrt(e[kNextEventSpread]) * std::min(part / all, 1.0)
+    return all > 0 ? tuned<policy::kNextEvent>("next_event.standard_errors") * std::sqrt(e[kNextEventSpread]) *
+                         std::min(part / all, 1.0)
                    : 0.0;
 }
 
@@ -38,7 +40,7 @@ double doubt(const NextEventEvidence& e, std::size_t from, std::size_t to) {
 double left_by_trees(std::size_t steps) {
     double left = 1.0;
     for (; steps > 0; --steps)
-        left *= 1 - tuned("next_event.learned");
+        left *= 1 - tuned<policy::kNextEvent>("next_event.learned");
     return left;
 }
 
@@ -48,7 +50,7 @@ std::size_t best_choice(const NextEventEvidence& e, std::size_t now, std::size_t
         return (moment(e, choice) + lambda * rays(e, choice)) * left_by_trees(std::min(choice, credited));
     };
     std::size_t best = now;
-    double least = price(now) * (1 - tuned("next_event.least_gain"));
+    double least = price(now) * (1 - tuned<policy::kNextEvent>("next_event.least_gain"));
     for (std::size_t choice = 0; choice < kChoices; ++choice) {
         if (choice == now) continue;
         const double cost = price(choice) + (choice > now ? doubt(e, now, choice) : 0.0);
@@ -73,7 +75,9 @@ NextEventVerdict decide_next_event(std::span<const NextEventEvidence> evidence, 
     double known = 0;
     for (const NextEventEvidence& e : evidence)
         known += e[kNextEventAsked];
-    if (!(price.rays > 0 && price.variance > 0 && paths > 0) || known < tuned("next_event.least_vertices")) return {};
+    if (!(price.rays > 0 && price.variance > 0 && paths > 0) ||
+        known < tuned<policy::kNextEvent>("next_event.least_vertices"))
+        return {};
     const std::vector<std::uint8_t> in_force(codes.begin(), codes.end());
     const auto credited = [&](std::size_t region) -> std::size_t {
         if (trees == TreesLearn::no_more) return in_force[region];

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "common/base/error.h"
 #include "common/decide/next_event/next_event_choice.h"
+#include "common/decide/next_event/next_event_constants.h"
 #include "common/decide/pass/judged_pass.h"
 #include "common/decide/pass/pass_figure.h"
+#include "common/decide/pixels/level_constants.h"
 
 namespace treefarm {
 
@@ -35,6 +39,7 @@ struct NextEventDecision {
         }
     };
 
+    static constexpr std::span<const policy::Constant> kConstants[] = {policy::kNextEvent, policy::kLevels};
     static constexpr bool kScheduled = false;
     static void judge(const JudgedPass& pass, const Evidence& sums, Memory& memory, Figures& figures);
     /// Nothing: workers are told the code with the model (ImageFacts), beside those of regions.

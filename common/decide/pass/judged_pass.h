@@ -23,6 +23,7 @@ struct JudgedPass {
     const PassPlan& plan;
     const TraceCounts& counts;
     DecisionRules rules{};
+    double sample_cost = 0;                   ///< sample_cost()
     std::span<const PixelEstimate> pixels{};  ///< of the pass alone
     std::size_t width = 0;                    ///< of the image, pixels
     ImageLevels told{};                       ///< light levels by which the pass was traced
@@ -31,8 +32,6 @@ struct JudgedPass {
 
     /// Whether noise of pixels relative to the light around them is measured.
     bool measures_noise() const { return (rules.guiding || rules.next_event) && plan.layers.estimates; }
-    /// Cost of a camera sample in closest-hit rays of unguided paths; of next event only the shadow rays count.
-    double sample_cost() const;
 };
 
 }  // namespace treefarm

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "common/decide/pass/judged_pass.h"
 #include "common/decide/pass/pass_figure.h"
+#include "common/decide/splitting/splitting_constants.h"
 #include "common/decide/splitting/splitting_gain.h"
 
 namespace treefarm {
@@ -30,6 +33,7 @@ struct SplittingDecision {
         }
     };
 
+    static constexpr std::span<const policy::Constant> kConstants[] = {policy::kSplitting};
     static constexpr bool kScheduled = true;
     static void judge(const JudgedPass& pass, const Evidence& sums, Memory& memory, Figures& figures);
     static void apply(PassPlan& plan, const Memory& memory);

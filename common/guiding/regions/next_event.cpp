@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "common/base/policy.h"
+#include "common/decide/next_event/next_event_constants.h"
 
 namespace treefarm {
 namespace {
@@ -47,7 +47,7 @@ class Pooling {
 
     /// `about`: means of the cube that the node's cube is a half of; for the root its own.
     void propagate(std::uint32_t node, const VertexMeans& about) {
-        const double lent = tuned("next_event.lent_vertices");
+        const double lent = tuned<policy::kNextEvent>("next_event.lent_vertices");
         const double own = sums_[node][kNextEventAsked];
         VertexMeans means = about;
         for (std::size_t i = 0; i < kNextEventSums; ++i)

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "common/base/policy.h"
 #include "common/decide/emission/emission_shares.h"
+#include "common/decide/light_subpaths/light_subpath_constants.h"
 #include "common/decide/trace_stats.h"
 #include "common/film/splat_film.h"
 #include "common/plan/forecast/budget.h"
@@ -145,7 +145,7 @@ TEST(LightSubpathGain, ComparesVarianceAndRays) {
     EXPECT_NEAR(gain.noise, 8 / 1.5, 1e-6);
     EXPECT_NEAR(gain.mean_ratio, 2 / 2.5, 1e-6);
     EXPECT_DOUBLE_EQ(gain.rays, 2.0);
-    EXPECT_NEAR(gain.at_equal_cost(), 8 / 1.5 / (2 * tuned("light_subpaths.ray_cost")), 1e-6);
+    EXPECT_NEAR(gain.at_equal_cost(), 8 / 1.5 / (2 * tuned<policy::kLightSubpaths>("light_subpaths.ray_cost")), 1e-6);
 }
 
 TEST(LightSubpathGain, OneSampleHasNoVarianceAndNonsenseIsLeftOut) {
@@ -182,7 +182,8 @@ TEST(LightSubpathGain, MissedLightIsNoiseThatNobodyHasSeen) {
     };
     EXPECT_NEAR(noise(1.0), 32 / 0.5, 1e-4) << "camera paths alone show none";
     EXPECT_EQ(noise(1.0, true), noise(1.0)) << "passes of 9 spp: a block of one sample has no variance";
-    const double error = std::sqrt(0.5 / 32), least = tuned("light_subpaths.missed_errors") * error;
+    const double error = std::sqrt(0.5 / 32),
+                 least = tuned<policy::kLightSubpaths>("light_subpaths.missed_errors") * error;
     EXPECT_NEAR(noise(1.01 * least), std::pow(1.01 * least / error, 2), 1e-4);
     EXPECT_EQ(noise(0.99 * least), 0) << "within the error";
     EXPECT_EQ(noise(0.0), 0) << "nothing is missed";
