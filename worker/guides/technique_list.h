@@ -47,7 +47,7 @@ inline std::uint32_t code_of(const CodedDirection& direction) {
 ///   find(guide, surface, position, outgoing, region, code, local)   looks up Local::distribution at a vertex; `code`
 ///                                                                   receives the outgoing direction's if it is needed
 ///   fraction(guide, local), least_bsdf_fraction(guide, local)       learned; the techniques before it share the rest
-///   sample(guide, local, random)     random[1] to [3] are uniform; point or direction with its density, 0 if none was drawn
+///   sample(guide, local, random)     point or direction by random[1] to [3], with its density, 0 if there is none
 ///   pdf(guide, local, direction)     the same density per steradian; `direction`: its code if kOnSquare, else a vector
 ///   moved(guide, region, code, distribution)                        distribution in another region, for records
 ///   prefetch(), prefetch_more(), prefetch_pdf(), prefetch_pdf_more()   data of sample() and pdf(), in two steps

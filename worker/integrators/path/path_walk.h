@@ -312,7 +312,7 @@ class PathWalk {
     }
 
     /// Samples an emitter; the visibility is tested for all paths of a step together.
-    void next_event(std::uint8_t index) {
+    [[gnu::always_inline]] void next_event(std::uint8_t index) {
         const Path& path = paths_[index];
         const Surface& surface = *path.surface;
         const LightReceiver at = receiver(path);
