@@ -5,8 +5,9 @@
 
 namespace treefarm {
 
-/// Constants that were tuned on scenes instead of derived. docs/generated/policy.md lists them, and a render records
-/// them in resolved.toml. This header includes no other of the project, so that every module may include it.
+/// Constants that were tuned on scenes instead of derived, here and beside each decision of common/decide.
+/// docs/generated/policy.md lists all, and a render records them in resolved.toml. This header includes no other of the
+/// project, so that every module may include it.
 namespace policy {
 
 struct Constant {
@@ -17,8 +18,6 @@ struct Constant {
     const char* sensitivity = "";  ///< work at half and at twice the value, over that with it (date of measurement)
 };
 
-inline constexpr const char* kAuto = "bench/log/decisions.md#when-is-guiding-given-up";
-inline constexpr const char* kSplits = "bench/log/splitting-and-roulette.md";
 inline constexpr const char* kRoulette = "bench/log/splitting-and-roulette.md";
 inline constexpr const char* kTree = "bench/log/guiding.md";
 inline constexpr const char* kViews = "bench/log/guiding.md#what-do-views-bring";
@@ -28,81 +27,10 @@ inline constexpr const char* kProgram2017 = "the program of Mueller et al. 2017"
 inline constexpr const char* kProgram2019 = "the program of Mueller et al. 2019";
 inline constexpr const char* kDecisions = "bench/log/decisions.md#does-next-event-by-region-pay";
 inline constexpr const char* kJoint = "bench/log/decisions.md#why-did-classroom-lose";
-inline constexpr const char* kEnds = "bench/log/bidirectional.md#when-should-light-subpaths-be-given-up";
-inline constexpr const char* kMissed = "bench/log/bidirectional.md";
 inline constexpr const char* kRare = "bench/log/decisions.md#what-does-a-light-sample-cost";
-inline constexpr const char* kHeld = "bench/log/decisions.md#does-auto-hold-in-scenes-that-nobody-tuned-it-on";
 
-/// Table of all constants, grouped by the decision that they are for.
+/// Table of the constants that are for no decision of common/decide, grouped by what they are for.
 inline constexpr Constant kConstants[] = {
-    // Whether paths are guided ("auto"), judged by what guided samples estimate for unguided ones.
-    {"guiding.least_judged_spp", 4, "shorter passes have no say, spp", kAuto},
-    {"guiding.ray_cost", 1.4,
-     "cost of a guided ray over that of an unguided one, training included; 1.24 to 1.53 by scene", kAuto,
-     "0.98, 1.19 (2026-11-28)"},
-    {"guiding.mistrusted", 2.0,
-     "unguided passes that are so many times as noisy as guided samples have said are believed instead", kDecisions,
-     "1.00, 1.00 (2026-11-28)"},
-    {"guiding.giving_up", 0.85,
-     "paths are unguided where variance times cost of unguided samples over that of guided ones is below this", kHeld,
-     "0.96, 0.98 (2026-11-28)"},
-    {"guiding.giving_up_early", 0.75,
-     "the same after passes of at most least_settled_spp; between those and settled_spp by the logarithm", kJoint},
-    {"guiding.giving_up_errors", 1.3, "by so many standard errors", kDecisions, "1.00, 0.96 (2026-11-28)"},
-    {"guiding.taking_up", 1.1, "and guided again where it is above this", kDecisions, "1.00, 1.00 (2026-11-28)"},
-    {"guiding.least_settled_spp", 16, "trees of shorter passes still get much better, spp", kDecisions},
-    {"guiding.settled_spp", 64, "from passes of so many spp on giving_up holds", kHeld},
-    {"guiding.least_known", 4.0, "noise that rests on fewer groups of pixels, of 64, has no say", kDecisions},
-    // Share of vertices at which next event samples emitters ("auto").
-    {"next_event.counted_every", 8,
-     "direct light is summed along one of so many samples of a pixel; along all of them it would take 17 % of the time",
-     kDecisions},
-    {"next_event.least_vertices", 512.0, "nothing is decided from fewer, of all regions together", kDecisions},
-    {"next_event.lent_vertices", 256.0,
-     "what is known of the cube about a region counts as so many vertices of its own", kDecisions,
-     "1.00, 1.00 (2026-11-28)"},
-    {"next_event.standard_errors", 2.0, "by how many standard errors fewer light samples must win", kDecisions,
-     "0.99, 1.02 (2026-11-28)"},
-    {"next_event.least_gain", 0.03, "and by this share of the region's own noise and cost", kDecisions,
-     "1.00, 1.00 (2026-11-28)"},
-    {"next_event.learned", 0.1,
-     "part of a guided region's noise and cost that trees are expected to take away with each step to fewer light "
-     "samples, which they learn",
-     kJoint, "1.02, 0.99 (2026-11-28)"},
-    {"next_event.sample_cost", 0.25, "cost of a light sample without its ray, in rays", kRare,
-     "1.01, 0.99 (2026-11-28)"},
-    {"next_event.shadow_ray_cost", 1.0, "cost of a shadow ray and its weights, in rays", kRare},
-    // Light level around a pixel, in relation to which noise is measured.
-    {"levels.least", 0.1, "darker blocks count as bright as this share of the image's mean", kDecisions},
-    // Splitting: number of paths that one splits into, and when splitting is given up.
-    {"splitting.usual", 8, "as how many paths one may go on (guiding.splitting = 0)", kSplits,
-     "1.00, 0.99 (2026-11-26)"},
-    {"splitting.least_share", 1.4,
-     "of what the first vertex sends to the camera, what each path of a split is expected to carry at least", kSplits,
-     "1.00, 0.98 (2026-11-26)"},
-    {"splitting.least_quietened", 1.01, "splitting ends where samples are not at least so many times quieter", kSplits},
-    {"splitting.least_found", 0.99, "passes whose unsplit samples find less of the light have no say", kSplits},
-    {"splitting.least_spp", 16, "nor have shorter ones, spp", kSplits},
-    {"splitting.least_gain", 0.97, "it may cost a little more than it shows: whole renders gain more", kSplits},
-    {"splitting.least_gain_alone", 0.9, "the same without next event, where they gain most", kSplits},
-    {"splitting.shown_gain", 2.2,
-     "with next event the gain that is seen is so many times what renders gain that never split", kSplits},
-    {"splitting.copy_ray_cost", 1.4, "cost of a copy's ray over that of another", kSplits},
-    // Light subpaths of bidirectional samples: when they are given up, and which emitters they start from.
-    {"light_subpaths.ray_cost", 1.7,
-     "cost of a ray of a bidirectional sample over that of a path from the camera, connections included", kEnds},
-    {"light_subpaths.least_gain", 0.9,
-     "light subpaths are given up where samples without them have less than this times their variance at equal cost",
-     kEnds},
-    {"light_subpaths.least_found", 0.95, "but not where those find less of the light: nobody knows how noisy they are",
-     kEnds},
-    {"light_subpaths.least_spp", 4, "shorter passes have no say, spp", kEnds},
-    {"light_subpaths.most_of_mean", 32.0,
-     "what a sample brings is compared up to so many times the usual: a firefly that both kinds meet hides what else "
-     "differs",
-     kMissed},
-    {"light_subpaths.missed_errors", 1.0,
-     "light that samples without them have missed is noise where it is more than so many standard errors", kRare},
     // Russian roulette, candidates, and glass seen by the camera.
     {"walk.adjoint_window", 4.0,
      "a path plays roulette when it is expected to carry less than one part in so many of what its first vertex does",
@@ -185,10 +113,10 @@ inline constexpr Constant kConstants[] = {
 
 }  // namespace policy
 
-/// Value of a constant. An unknown name does not compile, nor does an integer type for a fraction.
-template <class Number = double>
+/// Value of a constant of a table. An unknown name does not compile, nor does an integer type for a fraction.
+template <const auto& kTable, class Number = double>
 consteval Number tuned(const char* name) {
-    for (const policy::Constant& constant : policy::kConstants) {
+    for (const policy::Constant& constant : kTable) {
         const char *a = constant.name, *b = name;
         while (*a != 0 && *a == *b)
             ++a, ++b;
@@ -198,6 +126,12 @@ consteval Number tuned(const char* name) {
         return value;
     }
     throw "there is no such constant";
+}
+
+/// Value of a constant of policy::kConstants.
+template <class Number = double>
+consteval Number tuned(const char* name) {
+    return tuned<policy::kConstants, Number>(name);
 }
 
 }  // namespace treefarm

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "common/decide/emission/emission_shares.h"
@@ -50,6 +51,13 @@ struct TraceStats : TraceCounts {
 
     static constexpr std::size_t kMaxReported = 16;
     void add(const TraceStats& other);
+
+    /// Sums of one type.
+    template <class Sums>
+    const Sums& sums() const {
+        return *std::get<const Sums*>(std::tuple(static_cast<const TraceCounts*>(this), &next_event, &splitting,
+                                                 &unguided, &light_subpaths, &emission));
+    }
 };
 
 }  // namespace treefarm

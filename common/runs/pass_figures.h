@@ -1,35 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <iterator>
 #include <string_view>
+
+#include "common/decide/decisions.h"
 
 namespace treefarm {
 
-/// Files that have a figure, as bits.
-inline constexpr unsigned kInTable = 1;    ///< a column of passes.csv
-inline constexpr unsigned kInSummary = 2;  ///< a key in the list `passes` of summary.json
-inline constexpr unsigned kInCell = 4;     ///< a key in the list `passes` of a study's cell.json
-inline constexpr unsigned kInRecords = kInSummary | kInCell;
-inline constexpr unsigned kAll = kInTable | kInRecords;
-
-/// A figure of a finished pass.
-struct PassFigure {
-    const char* name;
-    const char* unit;
-    unsigned places;
-    const char* meaning;
-    const char* former = "";  ///< names in files of earlier versions, separated by spaces
-};
-
-/// Figures of a pass, in the order of the columns. An empty field or null: unknown.
-inline constexpr PassFigure kPassFigures[] = {
+/// Figures of a pass before and after those of the decisions.
+inline constexpr PassFigure kFirstFigures[] = {
     {"pass", "number", kAll, "number of the pass, from 1"},
     {"spp", "samples/pixel", kAll, "samples of this pass"},
     {"spp_done", "samples/pixel", kAll, "samples with this pass"},
     {"next_event", "0 or 1", kInTable, "paths sampled emitters directly"},
     {"next_event_samples", "1/vertex", kAll, "light samples per vertex", "next_event_n"},
-    {"next_event_low", "fraction", kAll, "vertices that have a light sample at 1 in 16 only"},
-    {"next_event_work_ratio", "ratio", kAll, "work over that with a light sample at each vertex", "next_event_saved"},
     {"record", "0 or 1", kInTable, "the pass taught the guiding tree"},
     {"workers", "count", kInTable, "workers of the pass"},
     {"threads", "count", kInTable | kInCell, "threads of all workers"},
@@ -78,24 +65,8 @@ inline constexpr PassFigure kPassFigures[] = {
     {"invalid_samples", "count", kAll, "samples left out, since they were no numbers"},
     {"tree_nodes", "count", kAll, "nodes of the spatial tree that guided the pass"},
     {"tree_regions", "count", kAll, "its regions"},
-    {"guided", "0 or 1", kAll, "paths were guided"},
-    {"guiding_efficiency", "ratio", kAll, "unguided work over guided; 0: not known", "worth guiding_worth"},
-    {"guiding_efficiency_low", "ratio", kAll, "less one standard error", "worth_low guiding_worth_low"},
-    {"guiding_efficiency_high", "ratio", kAll, "plus one standard error", "worth_high guiding_worth_high"},
-    {"guiding_efficiency_groups", "count", kInTable, "groups of pixels, of 64, that it rests on", "worth_known"},
-    {"unguided_variance", "number", kInTable, "variance that an unguided sample would have"},
-    {"split", "0 or 1", kAll, "paths were split"},
-    {"splitting_variance_ratio", "ratio", kAll, "variance of unsplit samples over that of split ones",
-     "splitting_quietens"},
-    {"splitting_ray_ratio", "ratio", kAll, "rays of split samples over those of unsplit ones", "splitting_rays"},
-    {"splitting_mean_ratio", "ratio", kAll, "mean of unsplit samples over that of split ones", "splitting_found"},
-    {"light_subpaths", "0 or 1", kAll, "light subpaths were traced"},
-    {"light_subpaths_variance_ratio", "ratio", kAll, "variance without light subpaths over that with them",
-     "light_subpaths_quieten"},
-    {"light_subpaths_ray_ratio", "ratio", kAll, "rays with light subpaths over those without", "light_subpaths_rays"},
-    {"camera_paths_mean_ratio", "ratio", kAll, "mean without light subpaths over that with them", "camera_paths_found"},
-    {"emitters", "count", kAll, "emitters that light paths may start from, where that is learned"},
-    {"emitters_of_half", "count", kAll, "the fewest of them that started half of the light paths"},
+};
+inline constexpr PassFigure kLastFigures[] = {
     {"tree_views", "count", kAll, "views of the tree"},
     {"tree_cells", "count", kAll, "cells of the tree"},
     {"spatial_depth", "count", kInTable, "depth of the spatial tree"},
@@ -118,6 +89,21 @@ inline constexpr PassFigure kPassFigures[] = {
     {"target", "object", kInCell, "forecast until budget.error, alike"},
     {"worker_seconds", "thread-s", kInCell, "tracing and recording, by worker"},
 };
+
+/// Figures of a pass, in the order of the columns. An empty field or null: unknown.
+inline constexpr auto kPassFigures = [] {
+    std::array<PassFigure, std::size(kFirstFigures) + Decisions::kFigures.size() + std::size(kLastFigures)> all{};
+    auto next = std::copy(std::begin(kFirstFigures), std::end(kFirstFigures), all.begin());
+    next = std::copy(Decisions::kFigures.begin(), Decisions::kFigures.end(), next);
+    std::copy(std::begin(kLastFigures), std::end(kLastFigures), next);
+    // As in files of earlier versions, the columns of next event follow next_event_samples.
+    const auto named = [&all](std::string_view name) {
+        return std::find_if(all.begin(), all.end(), [name](const PassFigure& f) { return f.name == name; });
+    };
+    const auto low = named(std::begin(NextEventDecision::kColumns)->figure.name);
+    std::rotate(named("next_event_samples") + 1, low, low + std::size(NextEventDecision::kColumns));
+    return all;
+}();
 
 /// Present name of a figure from the name written by this or an earlier version; other names are returned unchanged.
 std::string_view current_name(std::string_view written);

@@ -124,6 +124,7 @@ class RunKey {
     consteval RunKey(const char* name) : name_(name) {
         if (!is_known(name)) throw "no file of a run has this key";
     }
+    constexpr RunKey(const PassFigure& figure) : name_(figure.name) {}
     constexpr const char* name() const { return name_; }
 
   private:

@@ -49,25 +49,10 @@ void serialize(Archive& a, PassFacts& f) {
       f.record_core_seconds, f.threads, f.record, f.next_event);
 }
 
-template <class Archive>
-void serialize(Archive& a, LightSubpathSums& s) {
-    a(s.samples, s.both_mean, s.alone_mean, s.both_variance, s.alone_variance, s.alone_rays);
-}
-
-template <class Archive>
-void serialize(Archive& a, EmissionSums& s) {
-    a(s.paths, s.squares);
-}
-
-template <class Archive>
-void serialize(Archive& a, LightSubpathGain& g) {
-    a(g.noise, g.rays, g.mean_ratio);
-}
-
 /// All fields but threads, which may change on resume.
 template <class Archive>
 void serialize(Archive& a, RenderHistory& h) {
-    a(h.passes, h.seconds, h.error, h.guiding, h.splitting, h.light_subpaths, h.emission, h.budget);
+    a(h.passes, h.seconds, h.error, h.decisions, h.budget);
 }
 
 template <class Archive>
@@ -102,11 +87,6 @@ void serialize(Archive& a, PassSeconds& s) {
 }
 
 template <class Archive>
-void serialize(Archive& a, SplittingSums& s) {
-    a(s.split_mean, s.unsplit_mean, s.split_variance, s.unsplit_variance);
-}
-
-template <class Archive>
 void serialize(Archive& a, InvalidSample& s) {
     a(s.pass, s.x, s.y, s.sample, s.rgb[0], s.rgb[1], s.rgb[2]);
 }
@@ -129,16 +109,6 @@ void serialize(Archive& a, PassVariance& v) {
 }
 
 template <class Archive>
-void serialize(Archive& a, GuidingEfficiency& w) {
-    a(w.efficiency, w.error, w.known, w.unguided_variance, w.guided_variance, w.unguided_cost, w.guided_cost);
-}
-
-template <class Archive>
-void serialize(Archive& a, SplittingGain& g) {
-    a(g.variance, g.rays, g.mean_ratio);
-}
-
-template <class Archive>
 void serialize(Archive& a, ErrorForecast& f) {
     a(f.relative_error, f.spp, f.seconds, f.trust);
 }
@@ -158,18 +128,17 @@ void serialize(Archive& a, SplatCaps& c) {
     a(c.capped, c.rejected);
 }
 
-/// All fields but the origins, which are not needed after a resume.
+/// All fields but the origins, which are not needed after a resume, and next event, which is a decision.
 template <class Archive>
 void serialize(Archive& a, RefineReport& r) {
     a(r.spatial_depth_capped, r.directional_depth_capped, r.memory_capped, r.spatial_depth, r.directional_depth,
-      r.mean_cells, r.views_capped, r.next_event.saved, r.next_event.low);
+      r.mean_cells, r.views_capped);
 }
 
 template <class Archive>
 void serialize(Archive& a, PassReport& r) {
-    a(r.plan, r.spp_done, r.workers, r.threads, r.seconds, r.stats, r.variance, r.error, r.guiding_efficiency,
-      r.guiding, r.splitting_gain, r.splitting, r.light_subpath_gain, r.light_subpaths, r.emitters, r.emitters_of_half,
-      r.run_seconds, r.halving, r.target, r.tree, r.update_bytes, r.touched_cells, r.caps, r.splat_caps, r.splat_bytes,
+    a(r.plan, r.spp_done, r.workers, r.threads, r.seconds, r.stats, r.variance, r.error, r.decisions, r.run_seconds,
+      r.halving, r.target, r.tree, r.update_bytes, r.touched_cells, r.caps, r.splat_caps, r.splat_bytes,
       r.saturated_splats, r.refine);
 }
 
@@ -204,8 +173,8 @@ constexpr std::uint32_t kOrigin = section_tag("IDNT"), kHistory = section_tag("F
                         kPartialSplats = section_tag("PSPL"), kPartialSums = section_tag("PSUM");
 
 constexpr std::uint32_t version_of(std::uint32_t tag) {
-    if (tag == kHistory || tag == kReports || tag == kPartial) return 5;
-    return tag == kLearner ? 2 : 1;
+    if (tag == kHistory || tag == kReports) return 6;
+    return tag == kPartial ? 5 : tag == kLearner ? 3 : 1;
 }
 
 /// `room`: capacity to reserve in bytes, for large sections.
@@ -243,10 +212,6 @@ void require(bool condition, const char* what) {
     if (!condition) throw FormatError(what);
 }
 
-bool fits(const EmissionSums& emission) {
-    return emission.paths.size() == emission.squares.size();
-}
-
 /// Whether a noise measurement belongs to the films from number `first` on.
 bool fits(const SampleNoise& noise, std::size_t films) {
     return noise.passes <= films && std::all_of(noise.half.begin(), noise.half.end(), [&](const HalfNoise& half) {
@@ -269,11 +234,11 @@ std::vector<Section> encode_fields(const CheckpointOrigin& origin, const RenderS
     const std::size_t capacity = state.aovs.requested() ? 64 + most_aov_bytes() * origin.pixels : 0;
     std::vector<Section> sections;  // an initialiser list would copy each
     sections.push_back(section(kOrigin, origin));
-    sections.push_back(section(kHistory, state.history, state.guiding_memory));
+    sections.push_back(section(kHistory, state.history));
     sections.push_back(section(kFilms, state.films));
     sections.push_back(section_with_capacity(capacity, kAovs, state.aovs));
     sections.push_back(section(kModel, state.tree.encode(), state.last_tree, state.tree_hash));
-    sections.push_back(section(kLearner, state.learner, state.image_next_event));
+    sections.push_back(section(kLearner, state.learner));
     sections.push_back(section(kReports, state.reports));
     if (state.partial) sections.push_back(section(kPartial, *state.partial));
     return sections;
@@ -326,18 +291,15 @@ CheckpointOrigin decode_origin(const SectionFile& file) {
 RenderState decode_state(const SectionFile& file, std::size_t pixels, std::span<const AovRequest> aovs) {
     RenderState state;
     state.aovs = AovSums(aovs, pixels);
-    read(file, kHistory, state.history, state.guiding_memory);
+    read(file, kHistory, state.history);
     read(file, kFilms, state.films);
     read(file, kAovs, state.aovs);
     Bytes tree;
     read(file, kModel, tree, state.last_tree, state.tree_hash);
     state.tree = AnyModel::decode(tree);
-    read(file, kLearner, state.learner, state.image_next_event);
+    read(file, kLearner, state.learner);
     read(file, kReports, state.reports);
-    require(state.history.guiding <= Guiding::loses, "an unknown verdict on guiding");
     state.partial = decode_partial(file, pixels);
-    require(fits(state.history.emission) && (!state.partial || fits(state.partial->stats.emission)),
-            "light paths without their splats");
     require(state.reports.size() == state.history.passes.size(), "not a report for each pass");
     require(!state.reports.empty() || state.partial, "no pass");
     require(state.films.empty() == state.reports.empty(), "no film");
@@ -347,8 +309,7 @@ RenderState decode_state(const SectionFile& file, std::size_t pixels, std::span<
         require(fits(state.films[k].noise, state.films.size() - k), "noise of other films");
     }
     for (const PassReport& report : state.reports)
-        require(report.guiding <= Guiding::loses && report.halving.trust <= Trust::firm &&
-                    report.target.trust <= Trust::firm && report.plan.spp > 0,
+        require(report.halving.trust <= Trust::firm && report.target.trust <= Trust::firm && report.plan.spp > 0,
                 "an impossible report of a pass");
     require(state.aovs.fits(), "AOVs of another image");
     return state;

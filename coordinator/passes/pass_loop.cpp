@@ -108,7 +108,7 @@ class PassLoop {
         state_.history.threads = thread_count();
         NextPass next = choose_(state_.history);
         if (next.pass && has_tree && state_.last_tree) next.pass->last_tree = *state_.last_tree;
-        if (next.pass) set_emission(*next.pass, job_, state_.history);
+        if (next.pass) Decisions::apply(*next.pass, state_.history.decisions, false);
         return next;
     }
 
@@ -208,7 +208,7 @@ class PassLoop {
             ended_with_ = state_.tree;
         }
         const Timer timer;
-        learn(state_, job_, plan, next.pass, farm_.collector().sums(), report.price, report.refine);
+        learn(state_, job_, plan, next.pass, farm_.collector().sums(), report);
         report.seconds.refine = timer.seconds();
     }
 

@@ -6,8 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "common/decide/guiding/guiding_efficiency.h"
-#include "common/decide/trace_stats.h"
+#include "common/decide/decisions.h"
 #include "common/film/combine.h"
 #include "common/film/error_estimate.h"
 #include "common/guiding/any_guide.h"
@@ -64,21 +63,12 @@ struct PassReport {
     PassSeconds seconds;
     TraceStats stats;
     PassVariance variance;
-    ErrorEstimate error;                   ///< of the image including this pass
-    GuidingEfficiency guiding_efficiency;  ///< the basis of the verdict on guiding after this pass
-    Guiding guiding = Guiding::open;       ///< verdict after this pass
-    SplittingGain splitting_gain;          ///< of a guided pass that recorded and may split
-    bool splitting = true;                 ///< whether splitting may pay, after this pass
-    LightSubpathGain light_subpath_gain;   ///< of a pass with the comparison
-    bool light_subpaths = true;            ///< whether light subpaths may pay, after this pass
-    /// number of emitters that light paths may start from, if their choice is learned
-    std::uint64_t emitters = 0;
-    std::uint64_t emitters_of_half = 0;  ///< the smallest number of them that started half of this pass's light paths
-    NextEventPrice price;                ///< of a pass just finished: basis of the decision on next event
-    double run_seconds = 0;              ///< since the first worker requested units, including this pass
-    ErrorForecast halving;               ///< until half of the present error
-    ErrorForecast target;                ///< until budget.error; relative_error is 0 without that budget
-    TreeFigures tree;                    ///< of the tree that guided the pass
+    ErrorEstimate error;           ///< of the image including this pass
+    Decisions::Figures decisions;  ///< verdicts after this pass, with their basis
+    double run_seconds = 0;        ///< since the first worker requested units, including this pass
+    ErrorForecast halving;         ///< until half of the present error
+    ErrorForecast target;          ///< until budget.error; relative_error is 0 without that budget
+    TreeFigures tree;              ///< of the tree that guided the pass
     std::uint64_t update_bytes = 0, touched_cells = 0;
     UpdateCaps caps;
     SplatCaps splat_caps;
@@ -88,10 +78,6 @@ struct PassReport {
     /// Light samples per vertex at which emitters may be sampled.
     double next_event_samples() const;
     double nonzero_share() const;
-    /// Whether this pass connects light subpaths to camera subpaths.
-    bool has_light_subpaths() const {
-        return plan.light_subpaths && plan.layers.estimates && plan.layers.splats.pixels > 0;
-    }
     double core_seconds() const;  ///< of the workers' threads, tracing and recording
     /// Core-seconds until the image has unit variance, at this pass's stuv and speed.
     double ttuv() const;

@@ -6,11 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "common/decide/guiding/guiding_memory.h"
 #include "common/film/aov_film.h"
 #include "common/film/combine.h"
 #include "common/guiding/any_guide.h"
-#include "common/guiding/regions/next_event.h"
 #include "common/plan/forecast/budget.h"
 #include "coordinator/farm/partial_pass.h"
 #include "coordinator/passes/pass_report.h"
@@ -24,11 +22,9 @@ struct RenderState {
     RenderHistory history;
     std::vector<PassResult> films;  ///< summed up to the films that the image consists of
     AovSums aovs;
-    GuidingMemory guiding_memory;
     AnyModel tree;                  ///< guides the next pass
     std::optional<bool> last_tree;  ///< whether it was refined as the last one; no value: it is the first
     AnyLearner learner;
-    ImageNextEventLearner image_next_event;
     std::vector<PassReport> reports;     ///< of finished passes
     std::uint64_t tree_hash = 0;         ///< of the encoded tree that guided the last finished pass
     std::optional<PartialPass> partial;  ///< the partial pass after them, if the state is within one
@@ -69,12 +65,12 @@ void require_finite(const CombinedImage& image, const ErrorEstimate& error);
 /// Computes the image's other figures, including the last pass's variance, in parallel threads. Throws as
 /// require_finite().
 void describe_image(const RenderState& state, const Resolved& job, DevelopedState& developed, PassVariance& last_pass);
-/// Verdicts on guiding, splitting, light subpaths and, in unguided passes, next event, from the pass's figures and the
-/// combined image. Sets those of the report.
+/// Judges the pass by its sums and the combined image (common/decide/decisions.h). Sets the verdicts of the report, and
+/// the facts that the model carries about the image.
 void judge(RenderState& state, const Resolved& job, const CombinedImage& image, std::size_t width, PassReport& report);
 /// Builds the tree of the coming pass from the pass's records. Without a coming pass it is built as if passes continued
 /// to double: a resume of an ended render needs it.
 void learn(RenderState& state, const Resolved& job, const PassPlan& pass, const std::optional<PassPlan>& coming,
-           const CellSums& sums, const NextEventPrice& price, RefineReport& report);
+           const CellSums& sums, PassReport& report);
 
 }  // namespace treefarm

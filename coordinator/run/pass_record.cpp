@@ -3,6 +3,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+
 namespace treefarm {
 
 namespace {
@@ -30,14 +32,12 @@ std::vector<Figure> figures(const PassReport& r) {
     RunJson by_worker = RunJson::object();
     for (const auto& [worker, seconds] : r.seconds.worker)
         by_worker[std::to_string(worker)] = seconds;
-    return {
+    std::vector<Figure> figures = {
         {"pass", r.plan.index + 1},
         {"spp", r.plan.spp},
         {"spp_done", r.spp_done},
         {"next_event", r.plan.next_event},
         {"next_event_samples", r.next_event_samples()},
-        {"next_event_low", r.refine.next_event.low},
-        {"next_event_work_ratio", r.refine.next_event.saved},
         {"record", r.plan.record},
         {"workers", r.workers},
         {"threads", r.threads},
@@ -86,22 +86,11 @@ std::vector<Figure> figures(const PassReport& r) {
         {"invalid_samples", r.stats.invalid_samples},
         {"tree_nodes", r.tree.nodes},
         {"tree_regions", r.tree.regions},
-        {"guided", r.plan.guided},
-        {"guiding_efficiency", r.guiding_efficiency.efficiency},
-        {"guiding_efficiency_low", r.guiding_efficiency.low()},
-        {"guiding_efficiency_high", r.guiding_efficiency.high()},
-        {"guiding_efficiency_groups", r.guiding_efficiency.known},
-        {"unguided_variance", r.guiding_efficiency.unguided_variance},
-        {"split", r.plan.split},
-        {"splitting_variance_ratio", r.splitting_gain.variance},
-        {"splitting_ray_ratio", r.splitting_gain.rays},
-        {"splitting_mean_ratio", r.splitting_gain.mean_ratio},
-        {"light_subpaths", r.has_light_subpaths()},
-        {"light_subpaths_variance_ratio", r.light_subpath_gain.noise},
-        {"light_subpaths_ray_ratio", r.light_subpath_gain.rays},
-        {"camera_paths_mean_ratio", r.light_subpath_gain.mean_ratio},
-        {"emitters", r.emitters},
-        {"emitters_of_half", r.emitters_of_half},
+    };
+    std::size_t column = 0;
+    for (const FigureValue& value : Decisions::values(r.plan, r.decisions))
+        figures.push_back({Decisions::kFigures[column++], std::visit([](auto v) { return RunJson(v); }, value)});
+    const std::vector<Figure> last = {
         {"tree_views", r.tree.views},
         {"tree_cells", r.tree.cells},
         {"spatial_depth", r.tree.spatial_depth},
@@ -125,6 +114,13 @@ std::vector<Figure> figures(const PassReport& r) {
         {"target", has_goal ? forecast_record(r.target) : RunJson()},
         {"worker_seconds", by_worker},
     };
+    figures.insert(figures.end(), last.begin(), last.end());
+    const auto place = [](const Figure& figure) {
+        const std::string_view name = figure.key.name();
+        return std::find_if(kPassFigures.begin(), kPassFigures.end(), [name](auto& row) { return row.name == name; });
+    };
+    std::sort(figures.begin(), figures.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
+    return figures;
 }
 
 std::string field(const RunJson& value) {

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/policy.h"
+#include "common/decide/guiding/guiding_constants.h"
+#include "common/decide/next_event/next_event_constants.h"
+#include "common/decide/splitting/splitting_constants.h"
 
 namespace treefarm {
 
@@ -36,7 +38,7 @@ DecisionText guiding(Guiding verdict, const GuidingEfficiency& w) {
         fmt::format("an unguided sample would have {} of a guided one, at {:.2g} of its cost",
                     variance_ratio(w.unguided_variance / w.guided_variance), w.unguided_cost / w.guided_cost);
     const char* const what = guided ? "guided" : "unguided";
-    const bool too_little = w.known < tuned("guiding.least_known");
+    const bool too_little = w.known < tuned<policy::kGuiding>("guiding.least_known");
     if (guided && (too_little || saved(w.efficiency) <= 0))
         return {
             "guiding",
@@ -55,7 +57,7 @@ DecisionText guiding(Guiding verdict, const GuidingEfficiency& w) {
 
 /// Adds the decision on next event, unless an emitter is sampled at nearly each vertex.
 void add_next_event(const PassReport& r, std::vector<DecisionText>& texts) {
-    const NextEventVerdict& verdict = r.refine.next_event;
+    const NextEventVerdict& verdict = r.decisions.get<NextEventDecision::Figures>().verdict;
     const bool saves = verdict.saved <= 0.98;
     if (!saves && (verdict.low < 0.005 || !r.plan.guided)) return;
     std::string words = "next event ";
@@ -67,15 +69,15 @@ void add_next_event(const PassReport& r, std::vector<DecisionText>& texts) {
     if (saves)
         words +=
             fmt::format(", which saves about {:.0f} % of the work (by {:.2g} standard errors wherever it is rarer)",
-                        100 * (1 - verdict.saved), tuned("next_event.standard_errors"));
+                        100 * (1 - verdict.saved), tuned<policy::kNextEvent>("next_event.standard_errors"));
     texts.push_back({"next event", std::move(words)});
 }
 
 void add_splitting(const PassReport& r, std::vector<DecisionText>& texts) {
-    if (!r.plan.split || r.splitting) return;
-    const SplittingGain& gain = r.splitting_gain;
+    const auto& [gain, pays] = r.decisions.get<SplittingDecision::Figures>();
+    if (!r.plan.split || pays) return;
     std::string why = "unsplit samples would have " + variance_ratio(gain.variance);
-    if (gain.variance >= tuned("splitting.least_quietened")) {
+    if (gain.variance >= tuned<policy::kSplitting>("splitting.least_quietened")) {
         why += fmt::format(" for {:.2g} of the rays", 1 / gain.rays);
         if (r.plan.next_event) why += ", and copies cost more than their rays";
     }
@@ -83,20 +85,22 @@ void add_splitting(const PassReport& r, std::vector<DecisionText>& texts) {
 }
 
 void add_light_subpaths(const PassReport& r, std::vector<DecisionText>& texts) {
-    const double quieter = r.light_subpath_gain.at_equal_cost();
-    if (!r.has_light_subpaths() || quieter == 0) return;
+    const auto& [gain, pays] = r.decisions.get<LightSubpathDecision::Figures>();
+    const double quieter = gain.at_equal_cost();
+    if (!has_light_subpaths(r.plan) || quieter == 0) return;
     const std::string noise =
         fmt::format("{:.2g} times {}", std::max(quieter, 1 / quieter), quieter < 1 ? "the variance" : "less variance");
     texts.push_back(
         {"light subpaths", fmt::format("{}paths from lamps make {} at equal cost, found by samples that have both",
-                                       r.light_subpaths ? "" : "paths from the camera alone: ", noise)});
+                                       pays ? "" : "paths from the camera alone: ", noise)});
 }
 
 }  // namespace
 
 std::vector<DecisionText> decision_texts(const PassReport& report) {
     std::vector<DecisionText> texts;
-    if (report.guiding_efficiency.efficiency > 0) texts.push_back(guiding(report.guiding, report.guiding_efficiency));
+    const auto& [verdict, efficiency] = report.decisions.get<GuidingVerdict>();
+    if (efficiency.efficiency > 0) texts.push_back(guiding(verdict, efficiency));
     add_next_event(report, texts);
     add_splitting(report, texts);
     add_light_subpaths(report, texts);

@@ -45,8 +45,10 @@ std::string pass_summary(const PassReport& r, std::size_t pass_count) {
     text += fmt::format(", {:.1f} % of paths see light", 100 * r.nonzero_share());
     if (r.tree.regions > 1)
         text += fmt::format("; tree {} nodes, {:.1f} MB", r.tree.nodes, 1e-6 * static_cast<double>(r.tree.memory));
-    if (!r.plan.emission.empty())
-        text += fmt::format("; half of the light paths start at {} of {} emitters", r.emitters_of_half, r.emitters);
+    if (!r.plan.emission.empty()) {
+        const auto& [emitters, emitters_of_half] = r.decisions.get<EmissionDecision::Figures>();
+        text += fmt::format("; half of the light paths start at {} of {} emitters", emitters_of_half, emitters);
+    }
     for (const ErrorForecast& forecast : {r.halving, r.target})
         if (is_known(forecast))
             text += fmt::format("; {:.3g} % in {}", 100 * forecast.relative_error, forecast_text(forecast));

@@ -25,7 +25,7 @@ RenderState small_state() {
     guided.spp = 8;
     GuidingEvidence evidence{.samples = 8, .guided_cost = 3, .unguided_cost = 2};
     evidence.guided.fill(0.5);
-    state.guiding_memory.after_guided(guided, evidence);
+    state.history.decisions.get<GuidingDecision::Memory>().passes.after_guided(guided, evidence);
     PassFacts facts;
     facts.spp = 4;
     state.history.passes.push_back(facts);

@@ -7,8 +7,9 @@
 #include <string>
 #include <tuple>
 
-#include "common/base/policy.h"
 #include "common/config/job_reader.h"
+#include "common/decide/guiding/guiding_constants.h"
+#include "common/decide/next_event/next_event_constants.h"
 #include "common/decide/pixels/image_levels.h"
 #include "common/metrics/z_test.h"
 #include "coordinator/input/load.h"
@@ -48,7 +49,7 @@ TEST(Guided, GoesOnWhereItPays) {
     scene.film.width = scene.film.height = 64;
     const test::LocalRender run = test::render_locally(scene, automatic_job(127));
     const PassReport& last = run.reports[run.reports.size() - 2];  // the last that taught
-    EXPECT_GT(last.guiding_efficiency.low(), 1.0);
+    EXPECT_GT(last.decisions.get<GuidingVerdict>().efficiency.low(), 1.0);
     EXPECT_TRUE(run.plans.back().guided);
 }
 
@@ -64,9 +65,9 @@ TEST(Guided, EndsWhereItDoesNotPay) {
     EXPECT_FALSE(run.plans.back().guided);
     const PassReport* told = nullptr;
     for (const PassReport& report : run.reports)
-        if (report.plan.guided && report.guiding_efficiency.efficiency > 0) told = &report;
+        if (report.plan.guided && report.decisions.get<GuidingVerdict>().efficiency.efficiency > 0) told = &report;
     ASSERT_NE(told, nullptr);
-    EXPECT_LT(told->guiding_efficiency.high(), 0.65);
+    EXPECT_LT(told->decisions.get<GuidingVerdict>().efficiency.high(), 0.65);
     EXPECT_LE(told->plan.spp, 8u) << "after the first pass that has a say";
 
     job.guiding.type = GuidingType::none;
@@ -88,10 +89,12 @@ TEST(Guided, PathsTellTheVarianceAndCostOfUnguidedOnes) {
     job.guiding.rule = Rule::while_it_pays;
     job.integrator.light_samples = 1;
     const test::LocalRender run = test::render_locally(scene, job);
-    const auto guided = [&](const PassReport& r) { return r.plan.guided && r.guiding_efficiency.efficiency > 0; };
+    const auto guided = [&](const PassReport& r) {
+        return r.plan.guided && r.decisions.get<GuidingVerdict>().efficiency.efficiency > 0;
+    };
     GuidingEfficiency told;
     for (const PassReport& report : run.reports)
-        if (guided(report)) told = report.guiding_efficiency;
+        if (guided(report)) told = report.decisions.get<GuidingVerdict>().efficiency;
     ASSERT_GT(told.efficiency, 0);
     job.guiding.type = GuidingType::none;
     job.sampler.seed = 9;
@@ -101,8 +104,8 @@ TEST(Guided, PathsTellTheVarianceAndCostOfUnguidedOnes) {
     EXPECT_NEAR(told.unguided_variance / mean_variance(unguided.passes.back().pixels, levels, 48), 1, 0.25);
     const TraceStats& stats = unguided.stats.back();
     const double paths = 48.0 * 48.0 * plan.spp;
-    const double cost = (static_cast<double>(stats.rays) +
-                         tuned("next_event.shadow_ray_cost") * static_cast<double>(stats.shadow_rays)) /
+    const double cost = (static_cast<double>(stats.rays) + tuned<policy::kNextEvent>("next_event.shadow_ray_cost") *
+                                                               static_cast<double>(stats.shadow_rays)) /
                         paths;
     EXPECT_NEAR(told.unguided_cost / cost, 1, 0.05);
 }
@@ -117,9 +120,9 @@ TEST(Guided, PathsAreKeptWhileTreesGetBetter) {
     job.sampler.seed = 4;
     const test::LocalRender run = test::render_locally(scene, job);
     EXPECT_TRUE(run.plans.back().guided);
-    const double early = run.reports.at(3).guiding_efficiency.efficiency,
-                 late = run.reports.at(5).guiding_efficiency.efficiency;
-    EXPECT_LT(early, tuned("guiding.giving_up")) << "or this scene shows nothing";
+    const double early = run.reports.at(3).decisions.get<GuidingVerdict>().efficiency.efficiency,
+                 late = run.reports.at(5).decisions.get<GuidingVerdict>().efficiency.efficiency;
+    EXPECT_LT(early, tuned<policy::kGuiding>("guiding.giving_up")) << "or this scene shows nothing";
     EXPECT_GT(late, early);
 }
 

@@ -30,7 +30,7 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
     std::optional<PassPlan> before;
     for (NextPass next = choose(history); next.pass;) {
         PassPlan pass = *next.pass;
-        set_emission(pass, job, history);
+        Decisions::apply(pass, history.decisions, false);
         pass.kernel = kernel_of(job, pass, facts_of(state.tree));
         state.tree.set_pass(pass.index);
         run.model = state.tree;
@@ -77,8 +77,7 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
         report.stats = stats;
         judge(state, job, run.image, static_cast<std::size_t>(scene.film.width), report);
         next = choose(history);
-        if (pass.record && next.pass)
-            learn(state, job, pass, next.pass, accumulator.take(), report.price, report.refine);
+        if (pass.record && next.pass) learn(state, job, pass, next.pass, accumulator.take(), report);
         run.plans.push_back(pass);
         run.reports.push_back(std::move(report));
     }

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/base/error.h"
+
 namespace treefarm {
 
 /// Probability with which light paths start at each emitter, from the contributions of earlier passes: noise is least
@@ -19,6 +21,13 @@ struct EmissionSums {
     std::vector<std::uint64_t> squares;
 
     void add(const EmissionSums& other);
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive(paths, squares);
+        if (Archive::is_loading::value && paths.size() != squares.size())
+            throw FormatError("light paths without their splats");
+    }
 };
 
 /// Factor of each entry's probability by power, before normalisation; empty if there are no data, or no choice.

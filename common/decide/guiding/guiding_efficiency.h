@@ -56,6 +56,11 @@ struct GuidingEfficiency {
     double high() const;
 
     bool operator==(const GuidingEfficiency&) const = default;
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive(efficiency, error, known, unguided_variance, guided_variance, unguided_cost, guided_cost);
+    }
 };
 
 /// Variances and costs of guided and unguided samples, by pixel group, from guided passes.

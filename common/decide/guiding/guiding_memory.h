@@ -11,8 +11,14 @@ namespace treefarm {
 
 /// Verdict on guiding after a pass, with the efficiency that it is based on; zeros if unknown.
 struct GuidingVerdict {
-    Guiding guiding;
-    GuidingEfficiency efficiency;
+    Guiding guiding = Guiding::open;
+    GuidingEfficiency efficiency{};
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive(guiding, efficiency);
+        if (Archive::is_loading::value) require_known(guiding);
+    }
 };
 
 /// Evidence on guiding from a render's passes, which decides whether the next ones are guided. Guided passes estimate

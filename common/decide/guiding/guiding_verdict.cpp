@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/policy.h"
+#include "common/decide/guiding/guiding_constants.h"
 
 namespace treefarm {
 
@@ -12,23 +12,26 @@ namespace {
 
 /// Efficiency below which guiding is given up: lower after short passes, whose trees still improve much.
 double bar(std::uint32_t spp) {
-    const double settled = std::log2(static_cast<double>(spp) / tuned<std::uint32_t>("guiding.least_settled_spp")) /
-                           std::log2(static_cast<double>(tuned<std::uint32_t>("guiding.settled_spp")) /
-                                     tuned<std::uint32_t>("guiding.least_settled_spp"));
-    return std::lerp(tuned("guiding.giving_up_early"), tuned("guiding.giving_up"), std::clamp(settled, 0.0, 1.0));
+    const double settled =
+        std::log2(static_cast<double>(spp) / tuned<policy::kGuiding, std::uint32_t>("guiding.least_settled_spp")) /
+        std::log2(static_cast<double>(tuned<policy::kGuiding, std::uint32_t>("guiding.settled_spp")) /
+                  tuned<policy::kGuiding, std::uint32_t>("guiding.least_settled_spp"));
+    return std::lerp(tuned<policy::kGuiding>("guiding.giving_up_early"), tuned<policy::kGuiding>("guiding.giving_up"),
+                     std::clamp(settled, 0.0, 1.0));
 }
 
 }  // namespace
 
 Guiding judge_guiding(const PassPlan& pass, const GuidingEfficiency& efficiency, const GuidingEfficiency& before,
                       double mistrust) {
-    if (!(efficiency.efficiency > 0) || pass.spp < tuned<std::uint32_t>("guiding.least_judged_spp") ||
-        efficiency.known < tuned("guiding.least_known"))
+    if (!(efficiency.efficiency > 0) || pass.spp < tuned<policy::kGuiding, std::uint32_t>("guiding.least_judged_spp") ||
+        efficiency.known < tuned<policy::kGuiding>("guiding.least_known"))
         return Guiding::open;
-    const bool comparable = before.efficiency > 0 && before.known >= tuned("guiding.least_known");
+    const bool comparable = before.efficiency > 0 && before.known >= tuned<policy::kGuiding>("guiding.least_known");
     const double growth = comparable ? efficiency.efficiency / before.efficiency : 1.0;
     const double next = efficiency.efficiency * std::max(growth, 1.0);
-    const double most = next * mistrust * std::exp(tuned("guiding.giving_up_errors") * efficiency.error);
+    const double most =
+        next * mistrust * std::exp(tuned<policy::kGuiding>("guiding.giving_up_errors") * efficiency.error);
     return most < bar(pass.spp) ? Guiding::loses : Guiding::open;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "common/base/error.h"
 #include "common/decide/guiding/guiding_efficiency.h"
 #include "common/decide/pass/pass_plan.h"
 
@@ -11,6 +12,11 @@ enum class Guiding {
     open,   ///< it pays, or this is unknown: the next pass is guided
     loses,  ///< the next pass is unguided
 };
+
+/// Throws FormatError for a value that is no verdict.
+inline void require_known(Guiding verdict) {
+    if (verdict > Guiding::loses) throw FormatError("an unknown verdict on guiding");
+}
 
 /// Verdict after a guided pass that trained: compares efficiency of guiding times `mistrust` with a limit. `mistrust`:
 /// factor by which unguided passes were noisier than guided samples had predicted. `before`: efficiency with the

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/policy.h"
+#include "common/decide/light_subpaths/light_subpath_constants.h"
 #include "common/math/saturating.h"
 
 namespace treefarm {
@@ -24,7 +24,9 @@ double missed_light_noise(const LightSubpathSums& sums) {
     const double variance = mean(sums.both_variance);
     const double error = std::sqrt((variance + mean(sums.alone_variance)) / samples);
     const double missed = mean(sums.both_mean) - mean(sums.alone_mean);
-    return missed > tuned("light_subpaths.missed_errors") * error ? missed * missed * samples / variance : 0.0;
+    return missed > tuned<policy::kLightSubpaths>("light_subpaths.missed_errors") * error
+               ? missed * missed * samples / variance
+               : 0.0;
 }
 
 }  // namespace
@@ -39,7 +41,7 @@ void LightSubpathSums::add(const LightSubpathSums& other) {
 }
 
 void SubpathPairs::add(const Sample& sample) {
-    constexpr double kMost = tuned("light_subpaths.most_of_mean");
+    constexpr double kMost = tuned<policy::kLightSubpaths>("light_subpaths.most_of_mean");
     if (!(sample.own >= 0 && sample.alone >= 0 && sample.splat_squares >= 0) ||
         !std::isfinite(sample.own + sample.alone + sample.splats + sample.splat_squares))
         return;
@@ -68,7 +70,7 @@ void SubpathPairs::finish(LightSubpathSums& sums) {
 }
 
 double LightSubpathGain::at_equal_cost() const {
-    const double cost = rays * tuned("light_subpaths.ray_cost");
+    const double cost = rays * tuned<policy::kLightSubpaths>("light_subpaths.ray_cost");
     return cost > 0 ? noise / cost : 0.0;
 }
 
@@ -80,9 +82,10 @@ LightSubpathGain light_subpath_gain(const LightSubpathSums& sums, const TraceCou
 }
 
 bool light_subpaths_may_pay(const PassPlan& pass, const LightSubpathGain& gain) {
-    if (pass.spp < tuned<std::uint32_t>("light_subpaths.least_spp") || gain.noise == 0) return true;
-    return gain.mean_ratio < tuned("light_subpaths.least_found") ||
-           gain.at_equal_cost() >= tuned("light_subpaths.least_gain");
+    if (pass.spp < tuned<policy::kLightSubpaths, std::uint32_t>("light_subpaths.least_spp") || gain.noise == 0)
+        return true;
+    return gain.mean_ratio < tuned<policy::kLightSubpaths>("light_subpaths.least_found") ||
+           gain.at_equal_cost() >= tuned<policy::kLightSubpaths>("light_subpaths.least_gain");
 }
 
 }  // namespace treefarm

@@ -21,6 +21,11 @@ struct LightSubpathSums {
 
     void add(const LightSubpathSums& other);
     bool operator==(const LightSubpathSums&) const = default;
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive(samples, both_mean, alone_mean, both_variance, alone_variance, alone_rays);
+    }
 };
 
 /// Samples of a pixel, each with its light subpath and without.
@@ -57,6 +62,11 @@ struct LightSubpathGain {
 
     /// Ratio of noise at equal cost, without light subpaths over with them: above 1 they pay. 0: unknown.
     double at_equal_cost() const;
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive(noise, rays, mean_ratio);
+    }
 };
 LightSubpathGain light_subpath_gain(const LightSubpathSums& sums, const TraceCounts& counts);
 

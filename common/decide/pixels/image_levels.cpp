@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "common/base/policy.h"
+#include "common/decide/pixels/level_constants.h"
 #include "common/film/trimmed_mean.h"
 #include "common/math/level_block.h"
 
@@ -55,7 +55,7 @@ ImageLevels image_levels(std::span<const Rgb64> image, std::size_t width) {
         counts[block] += 1;
         all += y;
     }
-    const double least = tuned("levels.least") * all / static_cast<double>(image.size());
+    const double least = tuned<policy::kLevels>("levels.least") * all / static_cast<double>(image.size());
     constexpr double kBlack = 1e-30;  // the reciprocal of less is no float
     if (!(least > kBlack)) return levels;
     for (std::size_t b = 0; b < sums.size(); ++b)

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/policy.h"
+#include "common/decide/splitting/splitting_constants.h"
 #include "common/math/saturating.h"
 
 namespace treefarm {
@@ -59,14 +59,14 @@ SplittingGain splitting_gain(const SplittingSums& sums, const TraceCounts& count
 }
 
 bool splitting_may_pay(const PassPlan& pass, const SplittingGain& gain) {
-    if (pass.spp < tuned<std::uint32_t>("splitting.least_spp") || gain.variance == 0 ||
-        gain.mean_ratio < tuned("splitting.least_found"))
+    if (pass.spp < tuned<policy::kSplitting, std::uint32_t>("splitting.least_spp") || gain.variance == 0 ||
+        gain.mean_ratio < tuned<policy::kSplitting>("splitting.least_found"))
         return true;
-    if (gain.variance < tuned("splitting.least_quietened")) return false;
-    if (!pass.next_event) return gain.variance >= tuned("splitting.least_gain_alone") * gain.rays;
-    const double quieter = 1 + (gain.variance - 1) / tuned("splitting.shown_gain"),
-                 slower = 1 + (gain.rays - 1) * tuned("splitting.copy_ray_cost");
-    return quieter >= tuned("splitting.least_gain") * slower;
+    if (gain.variance < tuned<policy::kSplitting>("splitting.least_quietened")) return false;
+    if (!pass.next_event) return gain.variance >= tuned<policy::kSplitting>("splitting.least_gain_alone") * gain.rays;
+    const double quieter = 1 + (gain.variance - 1) / tuned<policy::kSplitting>("splitting.shown_gain"),
+                 slower = 1 + (gain.rays - 1) * tuned<policy::kSplitting>("splitting.copy_ray_cost");
+    return quieter >= tuned<policy::kSplitting>("splitting.least_gain") * slower;
 }
 
 }  // namespace treefarm

@@ -18,6 +18,11 @@ struct SplittingSums {
     std::uint64_t split_variance = 0, unsplit_variance = 0;  ///< of one sample
 
     void add(const SplittingSums& other);
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive(split_mean, unsplit_mean, split_variance, unsplit_variance);
+    }
 };
 
 /// Samples of a pixel, each of them split and unsplit.
@@ -47,6 +52,11 @@ struct SplittingGain {
     /// Mean of the unsplit samples over that of the split ones: 1, except for chance. If it is low, unsplit samples
     /// have missed rare light, and their noise is unknown.
     double mean_ratio = 0;
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive(variance, rays, mean_ratio);
+    }
 };
 SplittingGain splitting_gain(const SplittingSums& sums, const TraceCounts& counts);
 

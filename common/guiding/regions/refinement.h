@@ -5,27 +5,10 @@
 #include <limits>
 #include <vector>
 
+#include "common/decide/next_event/next_event_choice.h"
 #include "common/guiding/statistics/settings.h"
 
 namespace treefarm {
-
-/// Factor by which evidence of emitters, next event, mixtures and visits loses weight with each pass, since evidence of
-/// a coarser model is out of date.
-inline constexpr double kKeptEvidence = 0.5;
-
-/// Noise and cost of a pass, by which a decision on next event weighs noise against rays.
-struct NextEventPrice {
-    double variance = 0;  ///< of a camera sample, relative to the squared light level of its block
-    double rays = 0;      ///< closest-hit rays per camera sample; 0: no decision
-    double paths = 0;     ///< camera samples of the pass
-};
-
-/// Result of a decision on next event: predicted variance times cost relative to one sample at every vertex, and how
-/// often emitters are sampled.
-struct NextEventVerdict {
-    double saved = 1;  ///< 1 without a decision
-    double low = 0;    ///< share of vertices with the least samples
-};
 
 /// Settings of learning between passes; each guide uses those that apply to it.
 struct RefineSettings {

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "common/base/policy.h"
-#include "common/decide/emission/emission_shares.h"
 
 namespace treefarm {
 namespace {
@@ -138,10 +137,6 @@ PassChooser open_passes(const Resolved& job) {
     return [job](const RenderHistory& state) { return OpenBudget(job, state).next(state); };
 }
 
-void set_emission(PassPlan& pass, const Resolved& job, const RenderHistory& state) {
-    if (job.learns_emission && pass.light_subpaths) pass.emission = emission_emphasis(state.emission);
-}
-
 PassResult finished_pass(const PassPlan& plan, const PassPlan* before, std::vector<PixelEstimate> pixels) {
     PassResult pass{plan.spp, plan.first_sample, std::move(pixels)};
     pass.same_tree = before && !before->record;
@@ -157,13 +152,9 @@ void show(PassResult pass, const Resolved& job, std::vector<PassResult>& shown) 
 
 PassChooser passes_of(const Resolved& job, std::span<const PassPlan> begun) {
     PassChooser chooser = has_open_budget(job) ? open_passes(job) : listed_passes(continued_passes(job, begun));
-    return [chooser = std::move(chooser), job](const RenderHistory& state) {
+    return [chooser = std::move(chooser)](const RenderHistory& state) {
         NextPass next = chooser(state);
-        if (next.pass) {
-            set_guiding(*next.pass, job, state.guiding);
-            set_splitting(*next.pass, job, state.splitting);
-            set_light_subpaths(*next.pass, job, state.light_subpaths);
-        }
+        if (next.pass) Decisions::apply(*next.pass, state.decisions, true);
         return next;
     };
 }

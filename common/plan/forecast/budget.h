@@ -37,10 +37,6 @@ PassChooser passes_of(const Resolved& job, std::span<const PassPlan> begun = {})
 /// otherwise passes that double from there on by the same two rules (docs/use/resume.md). Pure.
 std::vector<PassPlan> continued_passes(const Resolved& job, std::span<const PassPlan> begun);
 
-/// Sets the emitter probabilities of a pass's light paths from the contributions of earlier passes, if the job asks for
-/// it. To be called once per pass, like the choice of its kernel.
-void set_emission(PassPlan& pass, const Resolved& job, const RenderHistory& state);
-
 /// A finished pass; `before`: the previous one, or nullptr.
 PassResult finished_pass(const PassPlan& plan, const PassPlan* before, std::vector<PixelEstimate> pixels);
 

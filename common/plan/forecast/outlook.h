@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/decide/emission/emission_shares.h"
+#include "common/decide/decisions.h"
 #include "common/film/error_estimate.h"
 #include "common/plan/schedule/schedule.h"
 
@@ -39,11 +39,8 @@ struct RenderHistory {
     double seconds = 0;             ///< wall-clock seconds of rendering, in all lives of the render
     std::uint32_t threads = 0;      ///< of the workers for the next pass; 0: unknown
     ErrorEstimate error;            ///< of the image so far
-    Guiding guiding = Guiding::open;
-    bool splitting = true;       ///< may pay
-    bool light_subpaths = true;  ///< may pay
-    EmissionSums emission;       ///< of all passes
-    BudgetMemory budget;         ///< memory as of the last finished pass: its NextPass::memory
+    Decisions::Memories decisions;
+    BudgetMemory budget;  ///< memory as of the last finished pass: its NextPass::memory
 
     std::uint32_t spp() const { return passes.empty() ? 0 : passes.back().spp_before + passes.back().spp; }
     /// Samples per pixel of the passes that had the last pass's tree.

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "common/base/policy.h"
 #include "common/base/text/parse_text.h"
+#include "common/decide/decisions.h"
 
 namespace treefarm {
 namespace {
@@ -34,9 +34,17 @@ std::string_view unrecorded(const std::string& name) {
 
 }  // namespace
 
+std::vector<policy::Constant> tuned_constants() {
+    std::vector<policy::Constant> all;
+    for (const std::span<const policy::Constant> table : Decisions::constants())
+        all.insert(all.end(), table.begin(), table.end());
+    all.insert(all.end(), std::begin(policy::kConstants), std::end(policy::kConstants));
+    return all;
+}
+
 std::string write_policy() {
     std::string text, section;
-    for (const policy::Constant& constant : policy::kConstants) {
+    for (const policy::Constant& constant : tuned_constants()) {
         const std::string name = constant.name, head = name.substr(0, name.find('.'));
         if (head != section) text += (text.empty() ? "[policy." : "\n[policy.") + head + "]\n";
         section = head;
@@ -53,8 +61,9 @@ void check_policy(std::span<const Setting> settings, const Location& file) {
                 written.key + " was " + written.value + ", and is " + std::string(value) + " in this build",
                 kResolvedCure);
     };
+    const std::vector<policy::Constant> constants = tuned_constants();
     std::vector<std::string> known;
-    for (const policy::Constant& constant : policy::kConstants)
+    for (const policy::Constant& constant : constants)
         known.push_back(std::string(kPolicyPrefix) + constant.name);
     for (const Setting& setting : settings) {
         if (!setting.key.starts_with(kPolicyPrefix) ||
@@ -75,13 +84,13 @@ void check_policy(std::span<const Setting> settings, const Location& file) {
             throw InputError(
                 file, known[i] + " is not in it: the build that wrote it had no such constant, or it was taken out",
                 kResolvedCure);
-        require(*written, number_text(policy::kConstants[i].value));
+        require(*written, number_text(constants[i].value));
     }
 }
 
 std::string policy_documentation() {
     std::string text = "| constant | value | meaning | work at half, at twice | evidence |\n|---|---|---|---|---|\n";
-    for (const policy::Constant& constant : policy::kConstants)
+    for (const policy::Constant& constant : tuned_constants())
         text += std::string("| `") + constant.name + "` | " + number_text(constant.value) + " | " + constant.meaning +
                 " | " + constant.sensitivity + " | " + constant.evidence + " |\n";
     return text;

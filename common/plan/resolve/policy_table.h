@@ -4,11 +4,16 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/base/error.h"
+#include "common/base/policy.h"
 #include "common/config/setting.h"
 
 namespace treefarm {
+
+/// All tuned constants, those of the decisions first.
+std::vector<policy::Constant> tuned_constants();
 
 /// The section [policy] of resolved.toml.
 std::string write_policy();

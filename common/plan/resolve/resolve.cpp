@@ -7,6 +7,7 @@
 #include "common/base/policy.h"
 #include "common/config/estimators.h"
 #include "common/config/job_keys.h"
+#include "common/decide/splitting/splitting_constants.h"
 #include "common/plan/resolve/splat_quantum.h"
 #include "common/scene/uses/emitter_uses.h"
 #include "common/scene/uses/material_traits.h"
@@ -113,7 +114,9 @@ Resolved resolve(const Job& job, const SceneFacts& scene) {
     if (resolved.integrator.ao_distance == 0) resolved.integrator.ao_distance = scene.ao_reach;
     const bool by_view = guiding.type == GuidingType::view;
     if (guiding.splitting == 0)
-        guiding.splitting = by_view && guiding.roulette == GuidingRoulette::adjoint ? tuned<int>("splitting.usual") : 1;
+        guiding.splitting = by_view && guiding.roulette == GuidingRoulette::adjoint
+                                ? tuned<policy::kSplitting, int>("splitting.usual")
+                                : 1;
     const bool table = guiding.type == GuidingType::qtable;
     if (guiding.grid_halvings == 0)
         guiding.grid_halvings = table ? 15 : 12;  // cells of a table learn means, which need fewer records
@@ -137,6 +140,13 @@ Resolved resolve(const Job& job, const SceneFacts& scene) {
 
 Resolved resolve(const Job& job, const Scene& scene) {
     return resolve(job, facts_of(scene));
+}
+
+DecisionRules decision_rules(const Resolved& job) {
+    return {.guiding = job.guiding.rule == Rule::while_it_pays,
+            .splitting = job.guiding.splitting_rule == Rule::while_it_pays,
+            .next_event = job.decides_next_event,
+            .light_subpaths = job.bidirectional.light_subpaths == Rule::while_it_pays};
 }
 
 std::string guiding_word(const Resolved& job) {

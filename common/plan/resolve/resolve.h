@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/config/job.h"
+#include "common/decide/pass/judged_pass.h"
 #include "common/scene/model/scene.h"
 
 namespace treefarm {
@@ -36,6 +37,9 @@ struct Resolved : Job {
     bool decides_next_event = false;  ///< finished passes decide how often emitters are sampled
     bool cells_follow_use = false;    ///< regions have fewer cells if the BSDF is sampled more often than their tree
 };
+
+/// Decisions that the job leaves to finished passes.
+DecisionRules decision_rules(const Resolved& job);
 
 /// Decides all settings that a job leaves to the program (docs/generated/jobs.md). Nothing else may do so. Pure.
 Resolved resolve(const Job& job, const SceneFacts& scene);

@@ -52,22 +52,6 @@ void set_record(PassPlan& pass, const Resolved& job, bool record) {
     pass.learn_mixture = record && has_model && job.guiding.learn_bsdf_fraction;
 }
 
-void set_guiding(PassPlan& pass, const Resolved& job, Guiding guiding) {
-    if (job.guiding.rule != Rule::while_it_pays || guiding != Guiding::loses) return;
-    pass.guided = false;
-    set_record(pass, job, false);
-}
-
-void set_splitting(PassPlan& pass, const Resolved& job, bool pays) {
-    if (job.guiding.splitting_rule == Rule::while_it_pays) pass.split = pays;
-}
-
-void set_light_subpaths(PassPlan& pass, const Resolved& job, bool pays) {
-    if (pays || job.bidirectional.light_subpaths != Rule::while_it_pays) return;
-    pass.light_subpaths = false;
-    pass.layers.splats = {};
-}
-
 PassPlan make_pass(const Resolved& job, std::uint32_t index, std::uint32_t first_sample, std::uint32_t spp, bool last) {
     PassPlan pass;
     pass.index = index;

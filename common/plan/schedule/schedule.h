@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/decide/guiding/guiding_verdict.h"
 #include "common/decide/pass/pass_plan.h"
 #include "common/plan/resolve/resolve.h"
 
@@ -19,16 +18,6 @@ PassPlan make_pass(const Resolved& job, std::uint32_t index, std::uint32_t first
 /// Sets next_event or record, and the members that depend on it.
 void set_next_event(PassPlan& pass, const Resolved& job, bool next_event);
 void set_record(PassPlan& pass, const Resolved& job, bool record);
-
-/// Applies the rule "while_it_pays" of guiding.rule: if guiding loses, a pass is unguided and teaches nothing.
-void set_guiding(PassPlan& pass, const Resolved& job, Guiding guiding);
-
-/// Applies the rule "while_it_pays" of guiding.splitting_rule: once splitting was found not to pay, no path is split.
-void set_splitting(PassPlan& pass, const Resolved& job, bool pays);
-
-/// Applies the rule "while_it_pays" of bidirectional.light_subpaths: once light subpaths were found not to pay, passes
-/// trace camera paths only, which do not splat.
-void set_light_subpaths(PassPlan& pass, const Resolved& job, bool pays);
 
 /// Passes of a job. They double from guiding.spp_unit; if the rest after a pass would be less than twice that pass, the
 /// pass takes the rest. The budget is rounded up to whole units. For an open budget (budget.seconds, budget.error),

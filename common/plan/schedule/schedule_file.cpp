@@ -9,6 +9,7 @@
 #include "common/base/error.h"
 #include "common/base/text/parse_text.h"
 #include "common/config/toml_settings.h"
+#include "common/decide/light_subpaths/light_subpath_decision.h"
 
 namespace treefarm {
 namespace {
@@ -75,7 +76,7 @@ class ScheduleReader {
             throw InputError(location((*pass)["light_subpaths"].node()->source()),
                              "light_subpaths = false, but bidirectional.light_subpaths is not \"while_it_pays\"",
                              "render with the job that the schedule was made by");
-        set_light_subpaths(plan, job_, light_subpaths);
+        if (!light_subpaths) drop_light_subpaths(plan);
         if (pass->contains("last_tree")) plan.last_tree = flag(*pass, "last_tree");
         done_ += *samples;
         passes_.push_back(plan);

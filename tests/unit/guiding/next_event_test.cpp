@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "common/base/error.h"
-#include "common/base/policy.h"
 #include "common/base/random.h"
+#include "common/decide/next_event/next_event_constants.h"
 #include "common/guiding/sd_tree/sd_tree_sampler.h"
 #include "common/guiding/sd_tree/tree_learner.h"
 #include "common/guiding/statistics/cell_accumulator.h"
@@ -23,7 +23,8 @@ namespace {
 
 constexpr std::size_t kChoices = kNextEventSamples.size();
 /// Cost of a light sample whose ray is traced, in rays.
-constexpr double kLightSample = tuned("next_event.sample_cost") + tuned("next_event.shadow_ray_cost");
+constexpr double kLightSample =
+    tuned<policy::kNextEvent>("next_event.sample_cost") + tuned<policy::kNextEvent>("next_event.shadow_ray_cost");
 
 /// Direct light over [0, 1): scattering is uniform, emitters are drawn with density 2 x, and x^2 arrives.
 double density(double x, double n) {
@@ -167,7 +168,7 @@ RegionModel halves() {
 }
 
 TEST(NextEvent, RegionsThatKnowLittleLeanOnTheCubeAboutThem) {
-    constexpr double kLent = tuned("next_event.lent_vertices");
+    constexpr double kLent = tuned<policy::kNextEvent>("next_event.lent_vertices");
     const std::array<NextEventEvidence, 2> evidences = {evidence(1e6, 5e5, 6e5), evidence(100, 0, 0)};
     const std::vector<NextEventEvidence> pooled = pool_next_event(halves(), evidences);
     const double all = 1e6 + 100;
@@ -181,7 +182,7 @@ TEST(NextEvent, RegionsThatKnowLittleLeanOnTheCubeAboutThem) {
 
 /// Errors by theory: of independent vertices that spread alike, and of what a child leans on.
 TEST(NextEvent, WhatIsLentIsAsSureAsItWasKnown) {
-    constexpr double kLent = tuned("next_event.lent_vertices");
+    constexpr double kLent = tuned<policy::kNextEvent>("next_event.lent_vertices");
     std::array<NextEventEvidence, 2> evidences = {evidence(1000, 1, 2), evidence(1000, 1, 2)};
     for (NextEventEvidence& e : evidences)
         e[kNextEventSpread] = 1000 * 4.0;  // a mean square of 4

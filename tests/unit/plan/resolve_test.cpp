@@ -7,11 +7,12 @@
 #include <fstream>
 #include <sstream>
 
-#include "common/base/policy.h"
 #include "common/config/job_keys.h"
 #include "common/config/job_reader.h"
+#include "common/plan/resolve/policy_table.h"
 #include "common/plan/resolve/resolved_file.h"
 #include "common/plan/schedule/schedule.h"
+#include "tests/support/losing_pass.h"
 #include "tests/support/refusal.h"
 
 namespace treefarm {
@@ -101,10 +102,7 @@ TEST(Resolve, WhatASceneDoesNotCallForIsNotLearned) {
 TEST(Resolve, ARuleSaysWhenGuidingAndSplittingMayEnd) {
     const auto pass_of = [](const Job& job) {
         const Resolved resolved = resolve(job, glossy());
-        PassPlan pass = make_pass(resolved, 3, 7, 8, false);
-        set_guiding(pass, resolved, Guiding::loses);
-        set_splitting(pass, resolved, false);
-        return pass;
+        return test::after_losing_pass(resolved, make_pass(resolved, 3, 7, 8, false));
     };
     EXPECT_FALSE(pass_of(Job()).guided);
     EXPECT_TRUE(pass_of(with({{"guiding.rule", "always"}})).guided);
@@ -117,11 +115,11 @@ TEST(Resolve, ARuleSaysWhenGuidingAndSplittingMayEnd) {
 }
 
 TEST(Policy, EveryConstantIsExplained) {
-    for (const policy::Constant& constant : policy::kConstants) {
+    for (const policy::Constant& constant : tuned_constants()) {
         EXPECT_GT(std::string(constant.meaning).size(), 8u) << constant.name;
         EXPECT_FALSE(std::string(constant.evidence).empty()) << constant.name;
     }
-    EXPECT_GT(std::size(policy::kConstants), 60u);
+    EXPECT_GT(tuned_constants().size(), 60u);
 }
 
 TEST(Policy, EveryConstantIsReadWhereItDecides) {
@@ -131,7 +129,7 @@ TEST(Policy, EveryConstantIsReadWhereItDecides) {
         for (const auto& entry : fs::recursive_directory_iterator(fs::path(TREEFARM_SOURCE_DIR) / folder))
             if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp")
                 sources += (std::stringstream() << std::ifstream(entry.path()).rdbuf()).str();
-    for (const policy::Constant& constant : policy::kConstants)
+    for (const policy::Constant& constant : tuned_constants())
         EXPECT_TRUE(sources.find("(\"" + std::string(constant.name) + "\")") != std::string::npos)
             << constant.name << " decides nothing";
 }

@@ -94,15 +94,16 @@ TEST_F(Checkpoints, TheNewestIsReadWithItsFilms) {
 TEST_F(Checkpoints, WhatDecidesOnGuidingAndNextEventIsKept) {
     CheckpointStore store(run_);
     RenderState state = state_of(2);
-    state.history.guiding = Guiding::loses;
+    auto& [guiding, verdict] = state.history.decisions.get<GuidingDecision::Memory>();
+    verdict = Guiding::loses;
     GuidingEvidence evidence{.samples = 8, .guided_cost = 3, .unguided_cost = 2};
     evidence.guided.fill(0.5);
     evidence.unguided.fill(0.25);
     PassPlan pass;
     pass.spp = 8;
-    EXPECT_EQ(state.guiding_memory.after_guided(pass, evidence).guiding, Guiding::loses);
+    EXPECT_EQ(guiding.after_guided(pass, evidence).guiding, Guiding::loses);
     pass.index = 5;
-    EXPECT_EQ(state.guiding_memory.after_unguided(pass, 100, Guiding::loses).guiding, Guiding::open) << "with mistrust";
+    EXPECT_EQ(guiding.after_unguided(pass, 100, Guiding::loses).guiding, Guiding::open) << "with mistrust";
     SdTree tree = *state.tree.get_if<SdTree>();
     tree.next_event.assign(tree.leaf_count(), 2);
     tree.image = {1, {0.5f}, 1};
@@ -111,27 +112,41 @@ TEST_F(Checkpoints, WhatDecidesOnGuidingAndNextEventIsKept) {
     const NextEventSums sums = {4000, 4000, 4000, 100 << 16, 110 << 16, 150 << 16, 0};
     const NextEventPrice price{1.0, 8.0, 1000};
     std::uint8_t code = 0;
-    state.image_next_event.learn(sums, price, code);
-    state.reports.back().guiding_efficiency = {.efficiency = 0.5, .error = 0.25, .unguided_variance = 2};
-    state.reports.back().refine.next_event = {0.5, 0.25};
+    auto& next_event = state.history.decisions.get<NextEventDecision::Memory>();
+    next_event.learner.learn(sums, price, code);
+    next_event.code = 1;
+    state.history.decisions.get<SplittingDecision::Memory>().pays = false;
+    state.history.decisions.get<LightSubpathDecision::Memory>() = {false, {1, 2, 3, 4, 5, 6}, {.rays = 7}};
+    state.history.decisions.get<EmissionSums>() = {{1, 2}, {3, 4}};
+    state.reports.back().decisions.get<GuidingVerdict>().efficiency = {
+        .efficiency = 0.5, .error = 0.25, .unguided_variance = 2};
+    state.reports.back().decisions.get<NextEventDecision::Figures>().verdict = {0.5, 0.25};
     state.reports.back().stats.next_event = sums;
     state.reports.back().stats.light_subpaths = {21, 22, 23, 24, 25, 26};
     state.reports.back().stats.tails.add({2.5f, 1, 3, 4, 5, {LightFound::sampled, PathClass::glossy, 3}});
     write(store, state);
     RenderState back = load().state;
-    EXPECT_EQ(back.history.guiding, Guiding::loses);
-    EXPECT_EQ(back.guiding_memory, state.guiding_memory);
-    EXPECT_NE(back.guiding_memory, GuidingMemory());
+    const Decisions::Memories& kept = back.history.decisions;
+    EXPECT_EQ(kept.get<GuidingDecision::Memory>().verdict, Guiding::loses);
+    EXPECT_EQ(kept.get<GuidingDecision::Memory>().passes, guiding);
+    EXPECT_NE(kept.get<GuidingDecision::Memory>().passes, GuidingMemory());
+    EXPECT_EQ(kept.get<NextEventDecision::Memory>().code, 1);
+    EXPECT_FALSE(kept.get<SplittingDecision::Memory>().pays);
+    EXPECT_FALSE(kept.get<LightSubpathDecision::Memory>().pays);
+    EXPECT_EQ(kept.get<LightSubpathDecision::Memory>().sums, (LightSubpathSums{1, 2, 3, 4, 5, 6}));
+    EXPECT_EQ(kept.get<LightSubpathDecision::Memory>().counts.rays, 7u);
+    EXPECT_EQ(kept.get<EmissionSums>().squares, (std::vector<std::uint64_t>{3, 4}));
     EXPECT_EQ(back.tree.encode(), state.tree.encode());
-    EXPECT_EQ(back.reports.back().guiding_efficiency.error, 0.25);
-    EXPECT_EQ(back.reports.back().refine.next_event.low, 0.25);
+    EXPECT_EQ(back.reports.back().decisions.get<GuidingVerdict>().efficiency.error, 0.25);
+    EXPECT_EQ(back.reports.back().decisions.get<NextEventDecision::Figures>().verdict.low, 0.25);
     EXPECT_EQ(back.reports.back().stats.next_event, sums);
     EXPECT_EQ(back.reports.back().stats.light_subpaths, state.reports.back().stats.light_subpaths);
     EXPECT_EQ(back.reports.back().stats.tails, state.reports.back().stats.tails);
     const NextEventSums later = {4000, 4000, 4000, 50 << 16, 90 << 16, 400 << 16, 0};
     std::uint8_t here = code, there = code;
-    const NextEventVerdict one = state.image_next_event.learn(later, price, here),
-                           other = back.image_next_event.learn(later, price, there);
+    const NextEventVerdict one = next_event.learner.learn(later, price, here),
+                           other = back.history.decisions.get<NextEventDecision::Memory>().learner.learn(later, price,
+                                                                                                         there);
     EXPECT_EQ(here, there);
     EXPECT_EQ(one.saved, other.saved);
     EXPECT_NE(one.saved, ImageNextEventLearner().learn(later, price, code).saved) << "or nothing was remembered";
@@ -269,7 +284,21 @@ TEST_F(Checkpoints, AStateThatNoRenderHasIsRefused) {
     EXPECT_NE(fault_with([](RenderState& s) { s.films.clear(); }).find("no film"), std::string::npos);
     EXPECT_NE(fault_with([](RenderState& s) { s.films[0].pixels.pop_back(); }).find("not those of 12 pixels"),
               std::string::npos);
-    EXPECT_NE(fault_with([](RenderState& s) { s.history.guiding = Guiding(7); }).find("unknown verdict"),
+    EXPECT_NE(fault_with([](RenderState& s) {
+                  s.history.decisions.get<GuidingDecision::Memory>().verdict = Guiding(7);
+              }).find("unknown verdict"),
+              std::string::npos);
+    EXPECT_NE(fault_with([](RenderState& s) {
+                  s.reports[1].decisions.get<GuidingVerdict>().guiding = Guiding(7);
+              }).find("unknown verdict"),
+              std::string::npos);
+    EXPECT_NE(fault_with([](RenderState& s) {
+                  s.history.decisions.get<NextEventDecision::Memory>().code = 3;
+              }).find("unknown number of light samples"),
+              std::string::npos);
+    EXPECT_NE(fault_with([](RenderState& s) {
+                  s.history.decisions.get<EmissionSums>().paths.push_back(1);
+              }).find("light paths without their splats"),
               std::string::npos);
     EXPECT_NE(fault_with([](RenderState& s) { s.reports[0].plan.spp = 0; }).find("impossible report of a pass"),
               std::string::npos);

@@ -149,7 +149,7 @@ TEST(ResumedRender, AVerdictOnGuidingIsTheSame) {
     job.integrator.rr_depth = 100;
     Stopped render("white-furnace.xml", job, "verdict");
     const RenderResult truth = render.render(render.begin(), render.passes(render.begin()));
-    ASSERT_EQ(truth.passes.back().guiding, Guiding::loses);
+    ASSERT_EQ(truth.passes.back().decisions.get<GuidingVerdict>().guiding, Guiding::loses);
     expect_all_stops_same("white-furnace.xml", job, "auto");
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "common/decide/next_event/next_event_constants.h"
 #include "worker/integrators/path/next_event_counts.h"
 #include "worker/integrators/path/path_settings.h"
 #include "worker/integrators/path/seen_light.h"
@@ -51,7 +52,7 @@ class LightChances {
     void traced(Path& path, bool delta) const {
         if constexpr (kConverts)
             if (settings_.estimates_unguided)
-                path.unguided.add_cost(static_cast<float>(tuned("next_event.shadow_ray_cost")));
+                path.unguided.add_cost(static_cast<float>(tuned<policy::kNextEvent>("next_event.shadow_ray_cost")));
         if (counts(path) && !delta) [[unlikely]]
             counts_.traced(path.guidance.region);
     }

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <span>
 
-#include "common/base/policy.h"
 #include "common/base/random.h"
+#include "common/decide/next_event/next_event_constants.h"
 #include "common/decide/trace_stats.h"
 #include "worker/integrators/path/path_state.h"
 
@@ -20,7 +20,7 @@ class NextEventCounts {
 
     /// Whether a path's direct light is counted: true for a few samples of each pixel.
     static bool counts(const PathKey& key) {
-        return key.sample % tuned<std::uint32_t>("next_event.counted_every") == 0;
+        return key.sample % tuned<policy::kNextEvent, std::uint32_t>("next_event.counted_every") == 0;
     }
 
     /// Counts a vertex that may sample an emitter; `drawn`: whether it does.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/base/policy.h"
+#include "common/decide/next_event/next_event_constants.h"
 #include "common/decide/next_event/next_event_sums.h"
 #include "common/guiding/regions/region_sampler.h"
 #include "common/plan/resolve/resolve.h"
@@ -15,7 +15,8 @@ namespace treefarm {
 inline bool counts_next_event(const Resolved& job, const PassPlan& pass, const RegionSampler& guide) {
     return pass.next_event && job.decides_next_event && guide.knows_image() &&
            (!pass.record || guide.decides_next_event()) &&
-           multiples_in(pass.first_sample, pass.spp, tuned<std::uint32_t>("next_event.counted_every")) > 0;
+           multiples_in(pass.first_sample, pass.spp,
+                        tuned<policy::kNextEvent, std::uint32_t>("next_event.counted_every")) > 0;
 }
 
 /// Settings of the walk, fixed for a pass.

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "common/base/policy.h"
+#include "common/decide/splitting/splitting_constants.h"
 #include "common/math/vec.h"
 
 namespace treefarm {
@@ -57,8 +58,8 @@ class Roulette {
     /// its first vertex's; each path then has at least the policy's fraction of the latter. 1 unless adjoint.
     std::uint32_t splitting(const Rgb& throughput, float scale, float brightness, std::uint32_t most) const {
         if (rule_ != Rule::adjoint) return 1;
-        const float paths =
-            max_component(throughput) * scale * brightness * (1.0f / tuned<float>("splitting.least_share"));
+        const float paths = max_component(throughput) * scale * brightness *
+                            (1.0f / tuned<policy::kSplitting, float>("splitting.least_share"));
         if (!(paths >= 2.0f)) return 1;
         return static_cast<std::uint32_t>(std::min(paths, static_cast<float>(most)));
     }

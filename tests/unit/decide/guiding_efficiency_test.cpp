@@ -10,6 +10,7 @@
 #include "common/decide/guiding/guiding_verdict.h"
 #include "common/plan/schedule/learning.h"
 #include "coordinator/passes/render_state.h"
+#include "tests/support/losing_pass.h"
 #include "tests/support/resolved.h"
 #include "worker/integrators/path/unguided_estimate.h"
 
@@ -153,8 +154,9 @@ TEST(GuidingEfficiency, WhereGuidingLosesPassesAreUnguidedAndTeachNothing) {
     for (const GuidingType type : {GuidingType::automatic, GuidingType::view})
         for (const Guiding known : {Guiding::open, Guiding::loses}) {
             job.guiding.type = type;
-            PassPlan pass = make_pass(test::resolved(job), 3, 7, 8, false);
-            set_guiding(pass, test::resolved(job), known);
+            const Resolved resolved = test::resolved(job);
+            PassPlan pass = make_pass(resolved, 3, 7, 8, false);
+            if (known == Guiding::loses) pass = test::after_losing_pass(resolved, pass);
             const bool guided = type == GuidingType::view || known == Guiding::open;
             EXPECT_EQ(pass.guided, guided);
             EXPECT_EQ(pass.record, guided);
@@ -177,7 +179,7 @@ class Automatic {
     Guiding pass(float deviation, double unguided = 0, std::uint32_t spp = 64) {
         PassReport report;
         report.plan = make_pass(job_, index_++, 64, spp, false);
-        set_guiding(report.plan, job_, state_.history.guiding);
+        Decisions::apply(report.plan, state_.history.decisions, true);
         report.stats.paths = kSquare * spp;
         report.stats.rays = 4 * report.stats.paths;
         if (report.plan.guided) report.stats.unguided = sums_of(double(deviation), unguided, 4.0, spp);
@@ -185,9 +187,10 @@ class Automatic {
         CombinedImage image;
         image.mean.assign(kSquare, Rgb64(1.0));
         judge(state_, job_, image, kEdge, report);
-        EXPECT_EQ(report.guiding, state_.history.guiding);
+        const Guiding verdict = report.decisions.get<GuidingVerdict>().guiding;
+        EXPECT_EQ(verdict, state_.history.decisions.get<GuidingDecision::Memory>().verdict);
         guided = report.plan.guided;
-        return report.guiding;
+        return verdict;
     }
     bool guided = true;  ///< the last pass
 
@@ -315,8 +318,8 @@ TEST(Automatic, AnImageWithoutLightStaysGuided) {
     CombinedImage image;
     image.mean.assign(kSquare, Rgb64(0.0));
     judge(state, resolved, image, kEdge, report);
-    EXPECT_EQ(report.guiding, Guiding::open);
-    EXPECT_EQ(report.guiding_efficiency.efficiency, 0);
+    EXPECT_EQ(report.decisions.get<GuidingVerdict>().guiding, Guiding::open);
+    EXPECT_EQ(report.decisions.get<GuidingVerdict>().efficiency.efficiency, 0);
     EXPECT_TRUE(state.tree.regions().image.inverse_levels.empty());
     EXPECT_EQ(state.tree.regions().image.next_event, 0);
 }

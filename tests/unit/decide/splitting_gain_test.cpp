@@ -7,12 +7,13 @@
 #include <cmath>
 #include <limits>
 
-#include "common/base/policy.h"
 #include "common/decide/emission/emission_shares.h"
+#include "common/decide/light_subpaths/light_subpath_constants.h"
 #include "common/decide/trace_stats.h"
 #include "common/film/splat_film.h"
 #include "common/plan/forecast/budget.h"
 #include "common/plan/schedule/schedule.h"
+#include "tests/support/losing_pass.h"
 #include "tests/support/resolved.h"
 #include "worker/integrators/path/split_paths.h"
 
@@ -117,17 +118,15 @@ TEST(SplittingGain, HasToShowMoreWithNextEvent) {
 TEST(SplittingGain, WhatTheJobAsksForIsDone) {
     Job job;
     PassPlan pass = make_pass(test::resolved(job), 5, 31, 32, false);
-    set_splitting(pass, test::resolved(job), false);
-    EXPECT_FALSE(pass.split);
-    set_splitting(pass, test::resolved(job), true);
+    EXPECT_FALSE(test::after_losing_pass(test::resolved(job), pass).split);
+    Decisions::apply(pass, {}, true);
     EXPECT_TRUE(pass.split);
     job.guiding.splitting = 4;
-    set_splitting(pass, test::resolved(job), false);
-    EXPECT_TRUE(pass.split);
+    EXPECT_TRUE(test::after_losing_pass(test::resolved(job), pass).split);
     job.guiding.splitting = 0;
     job.budget.spp = 31;
     RenderHistory state;
-    state.splitting = false;
+    state.decisions.get<SplittingDecision::Memory>().pays = false;
     EXPECT_FALSE(passes_of(test::resolved(job))(state).pass->split);
 }
 
@@ -146,7 +145,7 @@ TEST(LightSubpathGain, ComparesVarianceAndRays) {
     EXPECT_NEAR(gain.noise, 8 / 1.5, 1e-6);
     EXPECT_NEAR(gain.mean_ratio, 2 / 2.5, 1e-6);
     EXPECT_DOUBLE_EQ(gain.rays, 2.0);
-    EXPECT_NEAR(gain.at_equal_cost(), 8 / 1.5 / (2 * tuned("light_subpaths.ray_cost")), 1e-6);
+    EXPECT_NEAR(gain.at_equal_cost(), 8 / 1.5 / (2 * tuned<policy::kLightSubpaths>("light_subpaths.ray_cost")), 1e-6);
 }
 
 TEST(LightSubpathGain, OneSampleHasNoVarianceAndNonsenseIsLeftOut) {
@@ -183,7 +182,8 @@ TEST(LightSubpathGain, MissedLightIsNoiseThatNobodyHasSeen) {
     };
     EXPECT_NEAR(noise(1.0), 32 / 0.5, 1e-4) << "camera paths alone show none";
     EXPECT_EQ(noise(1.0, true), noise(1.0)) << "passes of 9 spp: a block of one sample has no variance";
-    const double error = std::sqrt(0.5 / 32), least = tuned("light_subpaths.missed_errors") * error;
+    const double error = std::sqrt(0.5 / 32),
+                 least = tuned<policy::kLightSubpaths>("light_subpaths.missed_errors") * error;
     EXPECT_NEAR(noise(1.01 * least), std::pow(1.01 * least / error, 2), 1e-4);
     EXPECT_EQ(noise(0.99 * least), 0) << "within the error";
     EXPECT_EQ(noise(0.0), 0) << "nothing is missed";
@@ -207,7 +207,7 @@ TEST(LightSubpathGain, WhatTheJobAsksForIsDone) {
     job.integrator.type = "bidirectional";
     const auto next = [](const Resolved& resolved) {
         RenderHistory state;
-        state.light_subpaths = false;
+        state.decisions = test::after_losing_pass(resolved);
         return *passes_of(resolved)(state).pass;
     };
     EXPECT_FALSE(next(test::resolved(job)).light_subpaths);

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// A decision of its own, added to those of the program by one line: CONTRIBUTING, "A decision".
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <variant>
+
+#include "common/decide/decisions.h"
+#include "common/protocol/archive.h"
+
+// Parts of others contain arrays.
+#include <cereal/types/array.hpp>
+
+namespace treefarm {
+namespace {
+
+/// Passes sample emitters directly once two of them found light along fewer than one path in a hundred.
+struct DarkDecision {
+    using Evidence = TraceCounts;
+
+    struct Memory {
+        std::uint32_t dark_passes = 0;
+
+        template <class Archive>
+        void serialize(Archive& archive) {
+            archive(dark_passes);
+        }
+    };
+
+    struct Figures {
+        double found = 0;  ///< share of paths
+
+        template <class Archive>
+        void serialize(Archive& archive) {
+            archive(found);
+        }
+    };
+
+    static constexpr bool kScheduled = true;
+    static void judge(const JudgedPass&, const Evidence& counts, Memory& memory, Figures& figures) {
+        figures.found = static_cast<double>(counts.nonzero_paths) / static_cast<double>(counts.paths);
+        if (figures.found < 0.01) ++memory.dark_passes;
+    }
+    static void apply(PassPlan& plan, const Memory& memory) {
+        if (memory.dark_passes >= 2) plan.next_event = true;
+    }
+
+    static constexpr DecisionColumn<Figures> kColumns[] = {
+        {{"found_share", "fraction", kAll, "paths that found light"},
+         [](const PassPlan&, const Figures& f) -> FigureValue { return f.found; }},
+    };
+};
+
+template <class... D>
+DecisionList<D..., DarkDecision> with_toy(DecisionList<D...>);
+using Extended = decltype(with_toy(Decisions()));
+
+/// Judges a pass of 1000 paths, of which so many found light, and returns the figures.
+Extended::Figures judge(Extended::Memories& memories, std::uint64_t found) {
+    const PassPlan plan;
+    TraceStats stats;
+    stats.paths = 1000;
+    stats.nonzero_paths = found;
+    Extended::Figures figures;
+    Extended::judge({.plan = plan, .counts = stats}, stats, memories, figures);
+    return figures;
+}
+
+bool samples_emitters(const Extended::Memories& memories, bool scheduled = true) {
+    PassPlan plan;
+    Extended::apply(plan, memories, scheduled);
+    return plan.next_event;
+}
+
+TEST(ToyDecision, ChangesThePlanByWhatPassesCounted) {
+    Extended::Memories memories;
+    judge(memories, 5);
+    judge(memories, 500);
+    EXPECT_FALSE(samples_emitters(memories));
+    judge(memories, 9);
+    EXPECT_TRUE(samples_emitters(memories));
+    EXPECT_FALSE(samples_emitters(memories, false)) << "a schedule has it";
+}
+
+TEST(ToyDecision, IsKeptByACheckpointWithTheOthers) {
+    Extended::Memories memories, back;
+    const Extended::Figures reported = judge(memories, 5);
+    memories.get<SplittingDecision::Memory>().pays = false;
+    ByteWriter writer;
+    WriteArchive written(writer);
+    written(memories, reported);
+    const Bytes bytes = writer.take();
+    ByteReader reader(bytes);
+    ReadArchive read(reader);
+    Extended::Figures figures;
+    read(back, figures);
+    reader.expect_end();
+    EXPECT_FALSE(back.get<SplittingDecision::Memory>().pays);
+    EXPECT_EQ(figures.get<DarkDecision::Figures>().found, 0.005);
+    EXPECT_FALSE(samples_emitters(back));
+    judge(back, 0);
+    EXPECT_TRUE(samples_emitters(back));
+}
+
+TEST(ToyDecision, HasAColumnAfterThoseOfTheOthers) {
+    Extended::Memories memories;
+    const std::vector<FigureValue> values = Extended::values({}, judge(memories, 250));
+    ASSERT_EQ(values.size(), Extended::kFigures.size());
+    EXPECT_EQ(values.size(), Decisions::kFigures.size() + 1);
+    EXPECT_EQ(Extended::kFigures.back().name, std::string("found_share"));
+    EXPECT_EQ(std::get<double>(values.back()), 0.25);
+    std::set<std::string> names;
+    for (const PassFigure& figure : Extended::kFigures)
+        EXPECT_TRUE(names.insert(figure.name).second) << figure.name;
+}
+
+}  // namespace
+}  // namespace treefarm
