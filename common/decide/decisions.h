@@ -20,7 +20,7 @@
 
 namespace treefarm {
 
-/// Requirements of a decision: what a finished pass changes in later ones. `Evidence` are the sums of a pass that it
+/// Requirements of a decision, by which a finished pass changes later ones. `Evidence` are the sums of a pass that it
 /// judges by (TraceStats::sums()), `Memory` outlives the pass, `Figures` are reported with it. Memory and figures
 /// archive themselves, for checkpoints: serialize(), which throws FormatError for values read that no render has.
 /// Tables of tuned constants are listed in `kConstants`, if it has any.

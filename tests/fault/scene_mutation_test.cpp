@@ -68,15 +68,9 @@ void expect_read_or_refused(const std::string& original, const std::filesystem::
     EXPECT_LT(refused, rounds) << "everything is refused";
 }
 
-std::filesystem::path folder() {
-    const auto path = std::filesystem::path(::testing::TempDir()) / "scene_mutation_test";
-    std::filesystem::create_directories(path);
-    return path;
-}
-
 TEST(SceneMutation, Scenes) {
     for (const char* name : {"cornell-box.xml", "door-ajar.xml", "white-furnace.xml"})
-        expect_read_or_refused(test::read_file(test::own_scene(name)), folder() / name, 250,
+        expect_read_or_refused(test::read_file(test::own_scene(name)), test::test_folder() / name, 250,
                                [](const std::filesystem::path& path) {
                                    for (const bool lenient : {true, false}) {
                                        const Bytes bytes = encode_scene(load_scene(path, {}, lenient).scene);
@@ -95,7 +89,7 @@ TEST(SceneMutation, Meshes) {
     obj +=
         "g part\nusemtl red\nf 1 2 3\nf 1/2 3/4 5/6\nf 7//8 9//10 11//12\nf -1/-2/-3 -4/-5/-6 -7/-8/-9 -10/-11/-12\n";
     obj += "f 1 2 3 4 5 6 7 \\\n 8 9 10\n";
-    expect_read_or_refused(obj, folder() / "m.obj", 1000, [](const std::filesystem::path& path) {
+    expect_read_or_refused(obj, test::test_folder() / "m.obj", 1000, [](const std::filesystem::path& path) {
         const ObjFile file = read_obj(path, {});
         for (const ObjFile::Corner& corner : file.corners) {
             EXPECT_LT(corner.position, file.positions.size());
@@ -106,12 +100,13 @@ TEST(SceneMutation, Meshes) {
 }
 
 TEST(SceneMutation, Jobs) {
-    expect_read_or_refused(write_job(Job{}), folder() / "job.toml", 1000, [](const std::filesystem::path& path) {
-        const std::string text = write_job(read_job_file(path));
-        Job back;
-        apply_layer(back, parse_job_settings(text, "job.toml"));
-        EXPECT_EQ(write_job(back), text);
-    });
+    expect_read_or_refused(write_job(Job{}), test::test_folder() / "job.toml", 1000,
+                           [](const std::filesystem::path& path) {
+                               const std::string text = write_job(read_job_file(path));
+                               Job back;
+                               apply_layer(back, parse_job_settings(text, "job.toml"));
+                               EXPECT_EQ(write_job(back), text);
+                           });
 }
 
 }  // namespace

@@ -2,8 +2,6 @@
 // What the processor's and the compiler's floating-point modes may not change.
 #include <xmmintrin.h>
 
-#include <filesystem>
-
 #include "tests/support/command.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/material_scenes.h"
@@ -59,10 +57,7 @@ TEST(FloatModes, FlushedDenormals) {
 /// -fassociative-math; a translation unit that includes our vectors does not compile with -ffast-math.
 TEST(FloatModes, FastMathIsRefused) {
     int refused = 0;
-    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "fast_math_test";
     const std::string source = TREEFARM_SOURCE_DIR;
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
     for (const char* flag : {"-ffast-math", "-Ofast", "-funsafe-math-optimizations", "-fassociative-math"}) {
         // Only the options are read: no compiler need be looked for, nor libraries.
         const auto [code, text] = test::run_command("cmake -DCMAKE_CXX_FLAGS=" + std::string(flag) + " -P '" + source +

@@ -8,6 +8,7 @@
 #include "common/plan/schedule/schedule.h"
 #include "tests/support/hard_case.h"
 #include "tests/support/resolved.h"
+#include "tests/support/test_folder.h"
 #include "tests/support/test_scenes.h"
 #include "worker/camera/camera_rays.h"
 #include "worker/integrators/path/tile_kernel.h"
@@ -122,7 +123,7 @@ TEST(Pixels, SamplesOnTheirEdges) {
 /// Here: images are written as float; where half is asked for, values end at 65504.
 /// Holds: 1e6, 1e30 and 3e38 come back exactly as float, and as 65504 from half.
 TEST(Pixels, RadianceBeyondHalf) {
-    const std::filesystem::path folder = testing::TempDir();
+    const std::filesystem::path folder = test::test_folder();
     Image image{3, 1, {}, {}};
     const auto y = image.add_channel("Y");
     y[0] = 1e6f;

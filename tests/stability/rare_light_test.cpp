@@ -36,8 +36,13 @@ TEST(RareLight, IsDecidedAlikeAtAnyScale) {
             for (std::size_t pass = 0; pass < usual.reports.size(); ++pass) {
                 const PassReport &a = usual.reports[pass], &b = other.reports[pass];
                 EXPECT_EQ(a.plan.guided, b.plan.guided) << name << ", pass " << pass;
-                EXPECT_EQ(a.guiding, b.guiding) << name << ", pass " << pass;
-                EXPECT_EQ(a.splitting, b.splitting) << name << ", pass " << pass;
+                const auto &verdicts = a.decisions, &scaled = b.decisions;
+                EXPECT_EQ(verdicts.get<GuidingDecision::Figures>().guiding,
+                          scaled.get<GuidingDecision::Figures>().guiding)
+                    << name << ", pass " << pass;
+                EXPECT_EQ(verdicts.get<SplittingDecision::Figures>().pays,
+                          scaled.get<SplittingDecision::Figures>().pays)
+                    << name << ", pass " << pass;
                 EXPECT_EQ(a.next_event_samples(), b.next_event_samples()) << name << ", pass " << pass;
             }
         }

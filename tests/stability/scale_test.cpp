@@ -11,6 +11,7 @@
 #include "tests/support/material_scenes.h"
 #include "tests/support/resolved.h"
 #include "tests/support/scaled_scene.h"
+#include "tests/support/test_folder.h"
 #include "worker/integrators/path/tile_renderer.h"
 
 namespace treefarm {
@@ -219,7 +220,7 @@ Scene room_at(const std::string& translation) {
         shape("rectangle", "<scale value=\"0.13\"/><rotate x=\"1\" angle=\"90\"/><translate y=\"0.98\"/>",
               white + "<emitter type=\"area\"><rgb name=\"radiance\" value=\"30\"/></emitter>") +
         "</scene>";
-    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "room_at.xml";
+    const std::filesystem::path file = test::test_folder() / "room_at.xml";
     std::ofstream(file) << text;
     return load_scene(file).scene;
 }

@@ -39,8 +39,7 @@ TEST(Printable, KeepsTextAndReplacesWhatSteersTerminals) {
 }
 
 TEST(Log, ALineIsALine) {
-    const fs::path file = fs::path(testing::TempDir()) / "log_test.txt";
-    fs::remove(file);
+    const fs::path file = test::fresh_test_folder() / "log.txt";
     Log log = make_log("treefarm", file, silent(), Verbosity::quiet);
     log->info("results in {}", "runs/a\n2026-01-01 treefarm error: forged\x1b[2J");
     log.reset();  // all is written then
@@ -51,7 +50,7 @@ TEST(Log, ALineIsALine) {
 }
 
 TEST(Log, GoesOnInAFileThatWasRemoved) {
-    const fs::path folder = fs::path(testing::TempDir()) / "log_test_folder", file = folder / "log.txt";
+    const fs::path folder = test::fresh_test_folder(), file = folder / "log.txt";
     fs::create_directories(folder);
     Log log = make_log("treefarm", file, silent(), Verbosity::quiet);
     log->info("one");
@@ -67,7 +66,7 @@ TEST(Log, GoesOnInAFileThatWasRemoved) {
 
 /// A file whose opening waits for permission, which root may do, is on such a disk.
 TEST(Log, DoesNotWaitForADiskThatHangs) {
-    const fs::path file = fs::path(testing::TempDir()) / "log_test_hang.txt";
+    const fs::path file = test::test_folder() / "log.txt";
     std::ofstream(file).flush();
     const int permissions = fanotify_init(FAN_CLASS_CONTENT | FAN_CLOEXEC, O_RDONLY);
     if (permissions < 0 || fanotify_mark(permissions, FAN_MARK_ADD, FAN_OPEN_PERM, AT_FDCWD, file.c_str()) != 0)
@@ -85,8 +84,7 @@ TEST(Log, DoesNotWaitForADiskThatHangs) {
 }
 
 TEST(Log, IsNotWrittenIntoAPipe) {
-    const fs::path pipe = fs::path(testing::TempDir()) / "log_test_pipe";
-    fs::remove(pipe);
+    const fs::path pipe = test::fresh_test_folder() / "pipe";
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
     Log log = make_log("treefarm", pipe, silent(), Verbosity::quiet);
     log->info("lost");

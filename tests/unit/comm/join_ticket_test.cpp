@@ -8,6 +8,7 @@
 
 #include "common/base/error.h"
 #include "tests/support/refusal.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
@@ -18,19 +19,12 @@ JoinTicket small_ticket() {
     return {draw_join_run(), "::1", 4711, draw_join_key()};
 }
 
-fs::path folder() {
-    const fs::path path = fs::path(testing::TempDir()) / "join_ticket_test";
-    fs::remove_all(path);
-    fs::create_directories(path);
-    return path;
-}
-
 std::string refusal(const std::function<void()>& act) {
     return test::refusal_of([&] { act(); });
 }
 
 TEST(JoinTicket, IsReadAsItWasWrittenByItsOwnerAlone) {
-    const fs::path path = folder() / "join";
+    const fs::path path = test::fresh_test_folder() / "join";
     const mode_t before = umask(0);
     for (int k = 0; k < 2; ++k) {  // the second replaces the first
         const JoinTicket written = small_ticket();
@@ -45,7 +39,7 @@ TEST(JoinTicket, IsReadAsItWasWrittenByItsOwnerAlone) {
 }
 
 TEST(JoinTicket, OneThatOthersCanReadIsRefused) {
-    const fs::path path = folder() / "join";
+    const fs::path path = test::fresh_test_folder() / "join";
     write_ticket(path, small_ticket());
     fs::permissions(path, fs::perms::group_read, fs::perm_options::add);
     EXPECT_NE(refusal([&] { read_ticket(path); }).find("can be read by other users"), std::string::npos);

@@ -8,6 +8,7 @@
 #include "common/base/error.h"
 #include "common/comm/in_process_channel.h"
 #include "common/comm/run_key.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
@@ -139,8 +140,7 @@ TEST_F(Sealed, OthersAreHeardWhenOneIsNot) {
 }
 
 TEST(RunKey, IsReadWhereNobodyElseCouldHave) {
-    const auto path = std::filesystem::path(::testing::TempDir()) / "treefarm_run_key";
-    std::filesystem::remove(path);
+    const auto path = test::fresh_test_folder() / "key";
     EXPECT_THROW(read_run_key(path), InputError);
     write_run_key(path);
     const JoinKey key = read_run_key(path);

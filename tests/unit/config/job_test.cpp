@@ -10,6 +10,7 @@
 #include "common/config/job_reader.h"
 #include "tests/support/refusal.h"
 #include "tests/support/support.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
@@ -285,8 +286,7 @@ TEST(Job, KeysOfVeryManyDotsAreRefused) {
 }
 
 TEST(Job, SceneFileIsRelativeToTheJobFile) {
-    const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "job_test";
-    std::filesystem::create_directories(folder);
+    const std::filesystem::path folder = test::test_folder();
     std::ofstream(folder / "job.toml") << "scene.file = \"../scenes/a.xml\"\n";
     EXPECT_EQ(read_job_file(folder / "job.toml").scene.file,
               std::filesystem::absolute(folder.parent_path() / "scenes/a.xml").lexically_normal().string());

@@ -85,6 +85,35 @@ TEST(ToyDecision, ChangesThePlanByWhatPassesCounted) {
     EXPECT_FALSE(samples_emitters(memories, false)) << "a schedule has it";
 }
 
+/// Decision that reports what the next pass does by decisions before it.
+struct FollowingDecision : DarkDecision {
+    struct Memory : DarkDecision::Memory {};
+    struct Figures : DarkDecision::Figures {};
+
+    static void judge(const JudgedPass& pass, const Evidence&, Memory&, Figures& figures) {
+        figures.found = pass.next.next_event ? 1 : 0;
+    }
+    static void apply(PassPlan&, const Memory&) {}
+
+    static constexpr DecisionColumn<Figures> kColumns[] = {
+        {{"followed", "0 or 1", kAll, "the next pass samples emitters"},
+         [](const PassPlan&, const Figures& f) -> FigureValue { return f.found; }},
+    };
+};
+
+TEST(ToyDecision, IsSeenByThoseAfterIt) {
+    using Two = DecisionList<DarkDecision, FollowingDecision>;
+    Two::Memories memories;
+    const PassPlan plan;
+    TraceStats stats;
+    stats.paths = 1000;
+    for (const double follows : {0, 1}) {
+        Two::Figures figures;
+        Two::judge({.plan = plan, .counts = stats}, stats, memories, figures);
+        EXPECT_EQ(figures.get<FollowingDecision::Figures>().found, follows);
+    }
+}
+
 TEST(ToyDecision, IsKeptByACheckpointWithTheOthers) {
     Extended::Memories memories, back;
     const Extended::Figures reported = judge(memories, 5);

@@ -11,6 +11,7 @@
 #include "coordinator/input/images/hdr.h"
 #include "coordinator/input/images/stored_image.h"
 #include "tests/support/refusal.h"
+#include "tests/support/test_folder.h"
 #include "tests/support/tiny_images.h"
 
 namespace treefarm {
@@ -18,10 +19,7 @@ namespace {
 
 class HostileImages : public ::testing::Test {
   protected:
-    static std::filesystem::path path() {
-        return std::filesystem::path(::testing::TempDir()) /
-               (std::string("hostile_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    }
+    static std::filesystem::path path() { return test::test_folder() / "image"; }
     static StoredImage read(const std::string& bytes) {
         std::ofstream(path(), std::ios::binary) << bytes;
         return read_stored_image(path());

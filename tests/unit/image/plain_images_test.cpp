@@ -12,6 +12,7 @@
 #include "coordinator/input/images/hdr.h"
 #include "coordinator/input/images/stored_image.h"
 #include "tests/support/refusal.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
@@ -19,9 +20,7 @@ namespace {
 class PlainImages : public ::testing::Test {
   protected:
     static StoredImage read(const std::string& bytes, const char* extension = "") {
-        const std::filesystem::path path =
-            std::filesystem::path(::testing::TempDir()) /
-            (std::string("plain_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() + extension);
+        const std::filesystem::path path = test::test_folder() / (std::string("image") + extension);
         std::ofstream(path, std::ios::binary) << bytes;
         return read_stored_image(path);
     }
@@ -97,7 +96,7 @@ TEST_F(PlainImages, ColoursOfOneLayer) {
     const auto message = [&](const Names& names) { return test::refusal_of([&] { chosen(names); }); };
     EXPECT_NE(message({"a.B", "a.G", "a.R", "b.B", "b.G", "b.R"}).find("several layers: a, b"), std::string::npos);
     EXPECT_NE(message({"U", "V"}).find("but U, V"), std::string::npos);
-    const std::filesystem::path path = std::filesystem::path(::testing::TempDir()) / "layer.exr";
+    const std::filesystem::path path = test::test_folder() / "layer.exr";
     Image image{1, 1, {}, {}};
     add_rgb_layer(image, "beauty", RgbImage(1, 1, Rgb(1, 2, 3)));
     write_exr(path, image);

@@ -6,6 +6,7 @@
 
 #include "tests/support/command.h"
 #include "tests/support/support.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
@@ -31,8 +32,7 @@ class LoneTasks : public testing::Test {
         EXPECT_FALSE(std::filesystem::exists(folder_)) << "nothing is written";
     }
 
-    const std::string folder_ =
-        std::string(testing::TempDir()) + "lone-tasks-" + testing::UnitTest::GetInstance()->current_test_info()->name();
+    const std::string folder_ = (test::fresh_test_folder() / "run").string();
 };
 
 TEST_F(LoneTasks, OfSrunWithoutPmixAreRefused) {

@@ -42,8 +42,7 @@ bool has(const std::string& text, const std::string& part) {
 
 /// A host is a folder here: its own temporary files, and a shell.
 TEST(HostKeys, ASecretReachesAHostByStandardInputAndIsTakenBack) {
-    const fs::path folder = fs::path(testing::TempDir()) / "host_keys_test";
-    fs::remove_all(folder);
+    const fs::path folder = test::fresh_test_folder();
     fs::create_directories(folder / "node7");
     const fs::path agent = folder / "agent", key = folder / "key";
     std::ofstream(agent) << "#!/bin/sh\nhost=$1\nshift\necho \"$*\" >> " << folder.string()
@@ -267,8 +266,7 @@ TEST(LifeAttempt, ComesThroughTheEnvironment) {
 }
 
 TEST(LaunchFolder, IsNothingThatARenderWouldReplace) {
-    const fs::path folder = fs::path(testing::TempDir()) / "launch-folder";
-    fs::remove_all(folder);
+    const fs::path folder = test::fresh_test_folder();
     fs::create_directories(folder / kLaunchFolder);
     EXPECT_EQ(folder_content(folder), FolderContent::nothing);
     std::ofstream(folder / "mine");

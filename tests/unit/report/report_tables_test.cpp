@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a study's report says of effects, forecasts and benchmarks, from results made up here.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -14,14 +13,14 @@
 #include "report/prediction_table.h"
 #include "report/price_list.h"
 #include "report/tree_pictures.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
 
 std::filesystem::path fresh_folder(const std::string& name) {
     static int number = 0;
-    const auto folder = std::filesystem::path(testing::TempDir()) /
-                        ("report_" + name + std::to_string(getpid()) + "_" + std::to_string(number++));
+    const auto folder = test::test_folder() / (name + std::to_string(number++));
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
     return folder;

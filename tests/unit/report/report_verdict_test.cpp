@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a report answers: who won, whether chance can have made it, what 5 % costs; from results made up here.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <fstream>
@@ -17,6 +16,7 @@
 #include "report/study_tables.h"
 #include "report/verdict.h"
 #include "tests/support/made_study.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
@@ -128,7 +128,7 @@ TEST(Charts, ShowWhatWasMeasuredNotTheirIntervals) {
 /// A run directory with what a report reads of it.
 std::filesystem::path run_folder(const std::string& name, const std::string& type, int seed, double error,
                                  int spp = 4) {
-    const auto folder = std::filesystem::path(testing::TempDir()) / ("report_run_" + std::to_string(getpid())) / name;
+    const auto folder = test::test_folder() / name;
     std::filesystem::create_directories(folder);
     std::ofstream(folder / "job.toml") << "[guiding]\ntype = '" << type << "'\n\n[sampler]\nseed = " << seed
                                        << "\n\n[budget]\nspp = " << spp << "\n";
@@ -195,7 +195,7 @@ TEST(Runs, OfUnequalBudgetsAreMethodsOfTheirOwn) {
 }
 
 TEST(Export, WritesFiguresForAPaper) {
-    const auto folder = std::filesystem::path(testing::TempDir()) / ("report_figures_" + std::to_string(getpid()));
+    const auto folder = test::fresh_test_folder();
     const ExportedFigures exported =
         export_figures(study(seeds("room", 3, 0.08, 0.04)), {figure_width("84mm"), "Times", 8}, folder);
     EXPECT_EQ(exported.figures, 7) << "three measures by two clocks, and the estimates";

@@ -11,6 +11,7 @@
 #include "common/image/exr.h"
 #include "coordinator/render/resume.h"
 #include "tests/support/support.h"
+#include "tests/support/test_folder.h"
 #include "worker/local_worker.h"
 
 namespace treefarm {
@@ -24,10 +25,7 @@ void work(Channel& own) {
 
 class RenderCall : public ::testing::Test {
   protected:
-    fs::path folder_ = fs::path(::testing::TempDir()) / "render_call" /
-                       ::testing::UnitTest::GetInstance()->current_test_info()->name();
-
-    void SetUp() override { fs::remove_all(folder_); }
+    const fs::path folder_ = test::fresh_test_folder();
 
     RenderInput input(const std::string& folder = "run") const {
         return {.file = test::own_scene("glossy-room.xml"),

@@ -14,6 +14,7 @@
 #include "coordinator/input/load.h"
 #include "coordinator/passes/pass_loop.h"
 #include "tests/support/support.h"
+#include "tests/support/test_folder.h"
 #include "worker/registry.h"
 #include "worker/worker_loop.h"
 
@@ -32,8 +33,7 @@ Log render_log() {
 class Stopped {
   public:
     Stopped(const std::string& scene, Job job, const std::string& name)
-        : scene_(load_scene(test::own_scene(scene), {}, false).scene),
-          folder_(fs::path(::testing::TempDir()) / "resume_render" / name) {
+        : scene_(load_scene(test::own_scene(scene), {}, false).scene), folder_(test::test_folder() / name) {
         scene_.film.width = 24;
         scene_.film.height = 16;
         job.guiding.spatial_threshold = 100;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files of a run: their tables, the programs that write by them, and what earlier versions wrote.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +20,7 @@
 #include "serve/pass_table.h"
 #include "tests/support/command.h"
 #include "tests/support/support.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
@@ -143,7 +143,7 @@ TEST(RunTables, AnUnknownFigureIsAnEmptyFieldOrNull) {
 }
 
 TEST(RunTables, AreWhatARenderWrites) {
-    const fs::path run = fs::path(testing::TempDir()) / ("runs_test_" + std::to_string(getpid()));
+    const fs::path run = test::fresh_test_folder() / "run";
     const test::Ended ended = test::run_treefarm(
         "render " + test::own_scene("cornell-box.xml") +
         " --set image.width=64 --set image.height=64 --error 0.1% --set budget.max_spp=7 --run-dir " + run.string() +

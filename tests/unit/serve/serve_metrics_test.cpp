@@ -11,6 +11,7 @@
 
 #include "serve/metrics_text.h"
 #include "tests/support/command.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
@@ -136,7 +137,7 @@ TEST(ServeMetrics, PrometheusClientTakesThem) {
     const std::string python = "/usr/bin/python3 -c '";
     if (test::run_command(python + "import prometheus_client.parser'").code != 0)
         GTEST_SKIP() << "there is no python3-prometheus-client (deploy/packages.txt)";
-    const std::string file = testing::TempDir() + "/treefarm_client_metrics.txt", text = metrics_text(two_runs());
+    const std::string file = (test::test_folder() / "metrics.txt").string(), text = metrics_text(two_runs());
     std::ofstream(file) << text;
     const test::Ended ended =
         test::run_command(python +
@@ -150,7 +151,7 @@ TEST(ServeMetrics, PrometheusClientTakesThem) {
 TEST(ServeMetrics, PromtoolTakesThem) {
     if (test::run_command("command -v promtool").code != 0)
         GTEST_SKIP() << "promtool is not installed (Debian: prometheus)";
-    const std::string file = testing::TempDir() + "/treefarm_metrics.txt";
+    const std::string file = (test::test_folder() / "metrics.txt").string();
     std::ofstream(file) << metrics_text(two_runs());
     const test::Ended ended = test::run_command("promtool check metrics < '" + file + "'");
     EXPECT_EQ(ended.code, 0) << ended.output;

@@ -15,6 +15,7 @@
 #include "tests/support/command.h"
 #include "tests/support/markdown.h"
 #include "tests/support/source_root.h"
+#include "tests/support/test_folder.h"
 
 namespace treefarm {
 namespace {
@@ -111,8 +112,7 @@ std::vector<std::pair<std::string, std::string>> scenes() {
 }
 
 TEST(DocsCommands, ScenesAreRead) {
-    const fs::path folder = fs::path(testing::TempDir()) / "docs_commands_test";
-    fs::create_directories(folder);
+    const fs::path folder = test::test_folder();
     fs::copy_file(kRoot / "configs/scenes/meshes/vase.obj", folder / "room.obj", fs::copy_options::overwrite_existing);
     ASSERT_FALSE(scenes().empty());
     for (const auto& [page, text] : scenes()) {
@@ -140,7 +140,7 @@ std::vector<std::string> studies(const fs::path& page) {
 }
 
 TEST(DocsCommands, StudiesAreRead) {
-    const fs::path folder = fs::path(testing::TempDir()) / "docs_studies_test";
+    const fs::path folder = test::test_folder();
     fs::create_directories(folder / "studies");
     fs::create_directories(folder / "scenes");
     fs::copy_file(kRoot / "configs/scenes/cornell-box.xml", folder / "scenes/cornell-box.xml",

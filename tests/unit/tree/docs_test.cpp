@@ -28,9 +28,10 @@ std::string first_match(const std::string& text, const std::string& pattern) {
 /// The page of docs/generated holds a table that the program writes; if not, the table is left in a file.
 void expect_page_holds(const std::string& name, const std::string& table) {
     const bool found = text_of("docs/generated/" + name).find(table) != std::string::npos;
-    if (!found) std::ofstream(::testing::TempDir() + name) << table;
+    const fs::path file = treefarm::test::test_folder() / name;
+    if (!found) std::ofstream(file) << table;
     EXPECT_TRUE(found) << "docs/generated/" << name << " is out of date; the table it should hold is in "
-                       << ::testing::TempDir() << name;
+                       << file.string();
 }
 
 TEST(Docs, ListEveryJobKeyAsTheProgramKnowsIt) {

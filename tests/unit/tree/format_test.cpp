@@ -9,6 +9,7 @@
 
 #include "tests/support/command.h"
 #include "tests/support/source_root.h"
+#include "tests/support/test_folder.h"
 
 namespace {
 
@@ -58,8 +59,7 @@ TEST(Format, EverySourceIsFormatted) {
 TEST(Format, TheCheckSeesABadFile) {
     if (!have_clang_format()) GTEST_SKIP() << "clang-format is not installed: run deploy/install";
     // clang-format looks for .clang-format upwards from the file, so it gets a copy of ours.
-    const fs::path folder = fs::path(testing::TempDir()) / "format_test";
-    fs::create_directories(folder);
+    const fs::path folder = treefarm::test::test_folder();
     fs::copy_file(kRoot / ".clang-format", folder / ".clang-format", fs::copy_options::overwrite_existing);
     std::ofstream(folder / "bad.cpp") << "int  f( ){return 1 ;}\n";
     std::ofstream(folder / "good.cpp") << "int f() {\n    return 1;\n}\n";
