@@ -164,7 +164,8 @@ bool has_checkpoint_file(const fs::path& run) {
     });
 }
 
-bool has_usable_checkpoint(const fs::path& run) {
+bool can_go_on(const fs::path& run) {
+    if (std::error_code none; !fs::exists(run / kJobFile, none)) return false;
     const auto candidates = candidates_of(run);
     return std::any_of(candidates.begin(), candidates.end(),
                        [](const Candidate& candidate) { return candidate.fault.empty(); });

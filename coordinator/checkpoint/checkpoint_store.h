@@ -38,8 +38,10 @@ std::uint64_t newest_generation(const std::filesystem::path& run);
 /// written its first checkpoint.
 bool has_checkpoint_file(const std::filesystem::path& run);
 
-/// Whether load_checkpoint() would find a usable checkpoint, if the origin fits.
-bool has_usable_checkpoint(const std::filesystem::path& run);
+/// Whether a render can go on in the run directory: it has its job, and load_checkpoint() would find a usable
+/// checkpoint, if the origin fits. A directory that was removed while it was rendered may have got a checkpoint without
+/// a job.
+bool can_go_on(const std::filesystem::path& run);
 
 /// Error of a run without a usable checkpoint, with the fault of each file.
 class NoCheckpoint : public InputError {

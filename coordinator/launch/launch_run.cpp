@@ -184,8 +184,7 @@ class LaunchRun {
         if (!folders_->trouble().empty()) note(folders_->trouble());
         if (number == 1) was_empty_ = folder_content(folder_.run()) == FolderContent::nothing;
         const bool goes_on = number > 1 && (was_empty_ || folder_.was_taken_by(launch_));
-        const std::vector<std::string> words =
-            goes_on ? command_.again(has_usable_checkpoint(folder_.run())) : command_.first();
+        const std::vector<std::string> words = goes_on ? command_.again(can_go_on(folder_.run())) : command_.first();
         const std::vector<std::string> command = start_command(plan, words);
         note("attempt " + std::to_string(number) + ": " + shell_line(command));
         std::vector<std::string> variables;

@@ -152,6 +152,15 @@ TEST_F(Checkpoints, WhatDecidesOnGuidingAndNextEventIsKept) {
     EXPECT_NE(one.saved, ImageNextEventLearner().learn(later, price, code).saved) << "or nothing was remembered";
 }
 
+TEST_F(Checkpoints, OfADirectoryWithoutAJobAreNothingToGoOnFrom) {
+    CheckpointStore store(run_);
+    EXPECT_FALSE(can_go_on(run_));
+    write(store, state_of(1));
+    EXPECT_FALSE(can_go_on(run_)) << "the directory was removed, and the render wrote a checkpoint after that";
+    test::write_file(run_ / kJobFile, "");
+    EXPECT_TRUE(can_go_on(run_));
+}
+
 TEST_F(Checkpoints, WhereTheNewestIsDamagedTheOneBeforeIsTaken) {
     CheckpointStore store(run_);
     for (std::size_t k = 1; k <= 3; ++k)
