@@ -126,6 +126,10 @@ Resolved unguided(const Resolved& job) {
     return plain;
 }
 
+/// Type by which this file compiles kernels of its own. With NoObserver the program would have two copies of each, and
+/// the linker could take the renderer's from here, where the compiler inlines less.
+struct Unobserved : NoObserver {};
+
 /// Sums over the samples of a square.
 struct Square {
     double radiance = 0, left = 0, reflected = 0, left_reflected = 0, sampled = 0;
@@ -211,7 +215,7 @@ class PointTracer {
     const std::uint64_t seed_;
     TraceStats stats_;
     Scatterer<Surface> scatterer_;
-    using Kernel = PathKernel<NoGuide, Surface, false, false>;
+    using Kernel = PathKernel<NoGuide, Surface, false, false, Unobserved>;
     Kernel kernel_;
     std::array<Rgb, Kernel::kGroup> waiting_;  ///< f |cos| of the directions that the kernel's paths start into
 };
