@@ -301,10 +301,7 @@ class PathWalk {
         }
         emitters_.draw();
         for (std::uint32_t i = 0; i < count; ++i)
-            if constexpr (Surface::kGeneral)
-                next_event(smooth[i]);
-            else
-                sample_emitter(smooth[i]);
+            Surface::kGeneral ? next_event(smooth[i]) : sample_emitter(smooth[i]);  // inlined: faster if simple
     }
 
     /// Point of a path's vertex, as next event chooses an emitter for it.
@@ -314,10 +311,8 @@ class PathWalk {
                 path.surface->transmits() ? nullptr : &front};
     }
 
+    /// Samples an emitter; the visibility is tested for all paths of a step together.
     void next_event(std::uint8_t index) { sample_emitter(index); }
-
-    /// Samples an emitter; the visibility is tested for all paths of a step together. Inlined also where it is called
-    /// for many paths, if surfaces are simple; g++ inlines less of larger units.
     [[gnu::always_inline]] void sample_emitter(std::uint8_t index) {
         const Path& path = paths_[index];
         const Surface& surface = *path.surface;
