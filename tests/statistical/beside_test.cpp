@@ -192,6 +192,24 @@ TEST(BesideMixture, LearnsWhatEachIsGoodFor) {
     EXPECT_NEAR(useless.guidance.bsdf_fraction / (1 - lobe_fraction(useless)), alone.guidance.bsdf_fraction, 0.05f);
 }
 
+/// Light in the cells of one guide is not taken for the other's.
+TEST(BesideMixture, EachLearnsFromItsOwnCells) {
+    using Pair = Beside<GridGuide, test::LobeGuide>;
+    const Pair::Model model = Pair::first(Box3(Vec3(0.0f), Vec3(1.0f)), first_settings());
+    const Pair::Sampler guide(model);
+    const std::uint32_t region = guide.region(kPlace), lobe = guide.beside().region(kPlace);
+    const std::uint32_t down = direction_to_code(-kLamp), up = direction_to_code(kLamp);
+    CellSums sums = CellAccumulator<Pair::Sampler>(model.pass, guide).take();
+    for (const auto& [distribution, code] : {std::pair(region, down), std::pair(guide.first() + lobe, up)}) {
+        sums.add_count(distribution, 1000);
+        sums.add_quanta(guide.cell(distribution, code), 1'000'000);
+    }
+    RefineReport report;
+    const Pair::Sampler next(Pair::Learner().learn(model, sums, {}, false, report));
+    EXPECT_GT(next.pdf(region, down), 2 * next.pdf(region, up));
+    EXPECT_GT(next.beside().pdf(lobe, kLamp), 2 * next.beside().pdf(lobe, -kLamp));
+}
+
 /// Renders passes of `spp` samples, of which each but the first is guided by what was learned in those before. Mean and
 /// variance of the pixels are the last pass's.
 template <class G, class Surface>

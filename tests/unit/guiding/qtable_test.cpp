@@ -58,7 +58,7 @@ TEST(QTable, RecordsOfTheMixtureAloneAreNoVisits) {
     log.begin(2);
     log.drafts.resize(8);
     const QTableWalk::Target target{1};
-    const TaughtDirection<QTableWalk> smooth{77u, 0.5f, 3.0f, 0.7f, 2}, delta{0u, 0.0f, 3.0f, 0.7f, 15},
+    const TaughtDirection<QTableWalk> smooth{77u, 0.5f, 3.0f, 0.7f, {2}}, delta{0u, 0.0f, 3.0f, 0.7f, {15}},
         of_next_event{78u, 0.5f, 3.0f, 0.7f, {}, false};
     Record* end = log.drafts.data();
     end = QTableWalk::teach({}, 1, target, smooth, log, end);
