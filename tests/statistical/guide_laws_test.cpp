@@ -302,7 +302,7 @@ TYPED_TEST(GuideLaws, WhoGoesOnFromACheckpointLearnsAlike) {
     };
     const auto learn = [&](AnyLearner& learner, const AnyModel& model, unsigned seed) {
         RefineReport report;
-        return learner.learn(model, sums(model, seed), {.spatial_threshold = 1000}, true, report);
+        return learner.learn(model, sums(model, seed).take_blocks(), {.spatial_threshold = 1000}, true, report);
     };
     AnyLearner learner;
     const AnyModel second = learn(learner, first, 1);
@@ -325,7 +325,11 @@ TYPED_TEST(GuideLaws, FiguresAreTheModels) {
     for (const auto& [name, model, region] : TestFixture::models()) {
         const AnyModel any(model);
         const typename TypeParam::Sampler sampler(model);
-        const SumsShape shape = any.sums_shape(true);
+        const ModelFigures shape = any.figures();
+        const typename StatisticOf<TypeParam>::Sums sums =
+            CellAccumulator<typename TypeParam::Sampler>(0, sampler).take();
+        const Blocks blocks = any.blocks(false);
+        EXPECT_EQ(blocks.sums(0).shape(), sums.blocks().sums(0).shape()) << name << ": coordinator and workers differ";
         EXPECT_EQ(shape.regions, sampler.region_count()) << name;
         EXPECT_EQ(shape.regions, model.leaf_count()) << name;
         EXPECT_EQ(shape.regions + shape.views, sampler.distribution_count()) << name;

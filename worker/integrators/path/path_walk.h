@@ -6,7 +6,6 @@
 #include <cassert>
 #include <vector>
 
-#include "common/decide/trace_stats.h"
 #include "worker/integrators/path/direction_choice.h"
 #include "worker/integrators/path/emission.h"
 #include "worker/integrators/path/emitter_choice.h"
@@ -19,6 +18,7 @@
 #include "worker/integrators/path/phase_clock.h"
 #include "worker/integrators/path/seen_light.h"
 #include "worker/integrators/path/vertex_records.h"
+#include "worker/integrators/unit_stats.h"
 #include "worker/scene/surface.h"
 
 namespace treefarm {
@@ -35,7 +35,7 @@ class PathWalk {
     using Path = PathState<G, Surface>;
     using Recorder = PathRecorder<G>;
 
-    PathWalk(const TraceScene& scene, const typename G::Sampler& guide, const PathSettings& settings, TraceStats& stats,
+    PathWalk(const TraceScene& scene, const typename G::Sampler& guide, const PathSettings& settings, UnitStats& stats,
              std::span<NextEventSums> direct_light = {})
         : scene_(scene),
           guide_(guide),
@@ -375,7 +375,7 @@ class PathWalk {
     const TraceScene& scene_;
     const typename G::Sampler& guide_;
     const PathSettings settings_;
-    TraceStats& stats_;
+    UnitStats& stats_;
     PhaseClock clock_;
     std::vector<typename Surface::Scratch> scratch_;  ///< a path's surface exists for one step
     std::array<Path, kBatch> paths_;
