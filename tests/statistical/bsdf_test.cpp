@@ -95,6 +95,10 @@ TEST(GuideDistribution, SamplesFollowTheDensity) {
     }
 }
 
+using ViewWalk = SdTreeWalk<true>;
+using ViewGuidance = ViewWalk::Guidance;
+using ViewScatter = ViewWalk::Scatter;
+
 /// A surface that directions are drawn for, without the geometry.
 class TestSurface {
   public:
@@ -114,20 +118,20 @@ class TestSurface {
 class MixtureSamples {
   public:
     MixtureSamples(const TestSurface& surface, const SdTreeSampler& guide, std::uint32_t region, float fraction)
-        : MixtureSamples(surface, guide, SdTreeGuidance{region, SdTreeSampler::kNoView, fraction, 0.0f}) {}
-    MixtureSamples(const TestSurface& surface, const SdTreeSampler& guide, const SdTreeGuidance& guidance)
+        : MixtureSamples(surface, guide, ViewGuidance{{region, fraction}, {}}) {}
+    MixtureSamples(const TestSurface& surface, const SdTreeSampler& guide, const ViewGuidance& guidance)
         : surface_(surface), guide_(guide), guidance_(guidance) {}
 
     /// The sample of a number. Samples of numbers that follow each other come from one batch.
-    const SdTreeScatter& operator[](std::uint32_t i) {
+    const ViewScatter& operator[](std::uint32_t i) {
         if (i / kDrawBatch != batch_) fill(i / kDrawBatch);
         return samples_[i % kDrawBatch];
     }
 
     float pdf(float bsdf_pdf, std::uint32_t code) const {
         const float guide_pdf = guide_.pdf(guidance_.region, code);
-        if (guidance_.has_view()) return mixed_pdf(guidance_, bsdf_pdf, guide_pdf, guide_.pdf(guidance_.view, code));
-        return mixed_pdf(guidance_.bsdf_fraction, bsdf_pdf, guide_pdf);
+        if (!guidance_.here()) return mixed_pdf(guidance_.bsdf_fraction, bsdf_pdf, guide_pdf);
+        return ViewWalk::List::mixed_pdf(guidance_, bsdf_pdf, guide_pdf, {guide_.pdf(guidance_.distribution, code)});
     }
 
   private:
@@ -142,7 +146,7 @@ class MixtureSamples {
         VectorBatch cosines;
         draw_batch(8, keys, kDrawBatch, 0, Stream::scatter, draws);
         cosine_hemisphere_batch(draws, kDrawBatch, cosines);
-        SdTreeScatterBatch<true, true, true> scatter;
+        ViewWalk::ScatterBatch<true, true> scatter;
         scatter.clear();
         std::array<bool, kDrawBatch> drawn;
         for (std::uint32_t k = 0; k < kDrawBatch; ++k)
@@ -157,9 +161,9 @@ class MixtureSamples {
 
     const TestSurface& surface_;
     const SdTreeSampler& guide_;
-    SdTreeGuidance guidance_;
+    ViewGuidance guidance_;
     std::uint32_t batch_ = ~0u;
-    std::array<SdTreeScatter, kDrawBatch> samples_;
+    std::array<ViewScatter, kDrawBatch> samples_;
 };
 
 TEST(GuideDistribution, MixtureFollowsItsDensity) {
@@ -168,7 +172,7 @@ TEST(GuideDistribution, MixtureFollowsItsDensity) {
         const SdTreeSampler& guide = trained_guide();
         MixtureSamples samples(surface, guide, guide.region_count() / 3, fraction);
         const auto sample = [&](std::uint32_t i, Vec3& d) {
-            const SdTreeScatter& s = samples[i];
+            const ViewScatter& s = samples[i];
             d = s.world;
             return !is_black(s.f_cos);
         };
@@ -190,12 +194,12 @@ TEST(GuideDistribution, MixtureWithAViewFollowsItsDensity) {
     std::uint32_t region = guide.region_count() / 2;
     while (guide.view(region, 0) == SdTreeSampler::kNoView)
         ++region;
-    for (const SdTreeGuidance& guidance : {SdTreeGuidance{region, guide.view(region, 77), 0.2f, 0.5f},
-                                           SdTreeGuidance{region, guide.view(region, 0xc0000000u), 0.05f, 0.95f},
-                                           SdTreeGuidance{region, guide.view(region, 0x80000000u), 0.5f, 0.0f}}) {
+    for (const ViewGuidance& guidance : {ViewGuidance{{region, 0.2f}, {guide.view(region, 77), 0.5f}},
+                                         ViewGuidance{{region, 0.05f}, {guide.view(region, 0xc0000000u), 0.95f}},
+                                         ViewGuidance{{region, 0.5f}, {guide.view(region, 0x80000000u), 0.0f}}}) {
         MixtureSamples samples(surface, guide, guidance);
         const auto sample = [&](std::uint32_t i, Vec3& d) {
-            const SdTreeScatter& s = samples[i];
+            const ViewScatter& s = samples[i];
             d = s.world;
             if (is_black(s.f_cos)) return false;
             EXPECT_EQ(s.pdf, samples.pdf(surface.bsdf().value(surface.wo(), s.local).pdf, s.code));
@@ -208,7 +212,7 @@ TEST(GuideDistribution, MixtureWithAViewFollowsItsDensity) {
         };
         const auto result = test::test_directions(sample, density, kBsdfSamples, 16, 64);
         EXPECT_NEAR(result.integral, result.success, 3e-3);
-        EXPECT_GT(result.p_value, kBsdfSignificance) << guidance.bsdf_fraction << ' ' << guidance.view_fraction;
+        EXPECT_GT(result.p_value, kBsdfSignificance) << guidance.bsdf_fraction << ' ' << guidance.fraction;
     }
 }
 
@@ -218,7 +222,7 @@ TEST(GuideDistribution, SampleAndDensityOfTheMixtureAgree) {
     MixtureSamples samples(surface, guide, 1, 0.5f);
     int at_borders = 0;
     for (std::uint32_t i = 0; i < 100000; ++i) {
-        const SdTreeScatter& s = samples[i];
+        const ViewScatter& s = samples[i];
         if (is_black(s.f_cos)) continue;
         ASSERT_EQ(s.pdf, samples.pdf(surface.bsdf().value(surface.wo(), s.local).pdf, s.code));
         at_borders += s.code != direction_to_code(s.world);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every guide has to keep: the same tests over the closed set of common/guiding/guides.h, on trained and on
-// hostile models. That renders by it are right is in guided_test, furnace_test and mpi/same_bits_test.
+// What every guide has to keep: the same tests over the closed set of common/guiding/guides.h and over guides beside
+// others, on trained and on hostile models. That renders by it are right is in guided_test, furnace_test and
+// mpi/same_bits_test.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include "common/math/warp.h"
 #include "common/protocol/archive.h"
 #include "tests/support/chi_square.h"
+#include "tests/support/lobe_guide.h"
 #include "tests/support/random_tree.h"
 #include "worker/guides/walks.h"
 #include "worker/integrators/path/path_recorder.h"
@@ -30,7 +32,10 @@ template <class List>
 struct TypesOf;
 template <class... G>
 struct TypesOf<GuideList<G...>> {
-    using type = ::testing::Types<G...>;
+    using type = ::testing::Types<G..., Beside<SdTreeGuide, GridGuide>, test::TreeBesideLobes,
+                                  Beside<Beside<GridGuide, GridGuide>, test::LobeGuide>>;
+    template <class Of>
+    static constexpr bool kHas = (... || std::is_same_v<Of, G>);
 };
 
 /// Records at random places of a unit cube, or all alike.
@@ -42,10 +47,34 @@ class GuideLaws : public ::testing::Test {
     using Model = typename G::Model;
     using Sampler = typename G::Sampler;
 
+    /// Whether the program has the guide; if so, tests use it as the program does.
+    static constexpr bool kListed = TypesOf<Guides>::template kHas<G>;
+    using ModelOfAny = std::conditional_t<kListed, AnyModel, Model>;
+    using LearnerOfAny = std::conditional_t<kListed, AnyLearner, typename G::Learner>;
+    static ModelOfAny decoded(std::span<const std::uint8_t> bytes) {
+        if constexpr (kListed)
+            return AnyModel::decode(bytes);
+        else
+            return G::decode(bytes);
+    }
+    static const Model& model_of(const ModelOfAny& model) {
+        if constexpr (kListed)
+            return *model.template get_if<Model>();
+        else
+            return model;
+    }
+    static Sampler sampler_of(const ModelOfAny& model) {
+        if constexpr (kListed)
+            return AnySampler(model).template get<Sampler>();
+        else
+            return Sampler(model);
+    }
+
     struct Named {
         std::string name;
         Model model;
         std::uint32_t region;  ///< to look at
+        Vec3 position;         ///< in it
     };
 
     static Model first() {
@@ -86,7 +115,7 @@ class GuideLaws : public ::testing::Test {
     static std::vector<Named> models() {
         std::vector<Named> all;
         const auto add = [&](const std::string& name, const Model& model, const Vec3& position) {
-            all.push_back({name, model, Sampler(model).region(position)});
+            all.push_back({name, model, Sampler(model).region(position), position});
         };
         const Sampler guide(first());
         const std::uint32_t code = direction_to_code(normalize(Vec3(0.3f, -0.5f, 0.7f)));
@@ -107,7 +136,7 @@ TYPED_TEST_SUITE(GuideLaws, TypesOf<Guides>::type);
 
 /// Laws 1 and 2: what is drawn follows the density, which integrates to one.
 TYPED_TEST(GuideLaws, DirectionsFollowTheirDensityWhichIntegratesToOne) {
-    for (const auto& [name, model, region] : TestFixture::models()) {
+    for (const auto& [name, model, region, position] : TestFixture::models()) {
         const typename TypeParam::Sampler guide(model);
         const auto drawn = [&, at = region](std::uint32_t i) {
             return guide.sample(at, draw({5, i, 0}, 0, Stream::scatter));
@@ -132,6 +161,9 @@ TYPED_TEST(GuideLaws, DirectionsFollowTheirDensityWhichIntegratesToOne) {
 /// A diffuse surface that directions are drawn for.
 class PlainSurface {
   public:
+    static constexpr bool kGeneral = true;
+    static bool smooth() { return true; }
+    static bool view_dependent() { return false; }
     const PlainDiffuse& bsdf() const { return bsdf_; }
     const Frame& frame() const { return frame_; }
     const Vec3& wo() const { return wo_; }
@@ -161,11 +193,16 @@ TYPED_TEST(GuideLaws, TheMixtureEstimatesIntegrals) {
     using Walk = WalkOf<typename TypeParam::Sampler>;
     const PlainSurface surface;
     const Vec3 side = normalize(cross(surface.frame().n, Vec3(1.0f, 0.0f, 0.0f)));
-    for (const auto& [name, model, region] : TestFixture::models()) {
+    for (const auto& [name, model, region, position] : TestFixture::models()) {
         const typename TypeParam::Sampler guide(model);
         typename Walk::Guidance guidance = Walk::unguided();
         guidance.region = region;
         guidance.bsdf_fraction = 0.3f;
+        if constexpr (Walk::kLocal) {
+            std::uint32_t outgoing = 0;
+            Walk::template localise<true>(guide, surface, position, surface.frame().to_world(surface.wo()), outgoing,
+                                          guidance);
+        }
         auto scatter = std::make_unique<typename Walk::template ScatterBatch<true, true>>();
         GuideMoments all, tilted, half;
         for (std::uint32_t i = 0; i < kGuideSamples; ++i) {
@@ -208,8 +245,9 @@ TYPED_TEST(GuideLaws, TheRadianceItKnowsIsThatOfItsRecords) {
         target.region = guide.region(position);
         for (std::uint32_t i = 0; i < 100'000; ++i) {
             const Draw random = draw({8, i, pass}, 0, Stream::scatter);
-            const Vec3 d = square_to_direction({to_unit(random[0]), to_unit(random[1])});
-            const TaughtDirection<Walk> taught{direction_to_code(d), kInvFourPi, light(d), 0.0f, {}};
+            const Vec2 square(to_unit(random[0]), to_unit(random[1]));
+            const TaughtDirection<Walk> taught{
+                Walk::direction_at(square), kInvFourPi, light(square_to_direction(square)), 0.0f, {}};
             Record* const end = Walk::teach({}, random[2], target, taught, log, log.drafts.data());
             log.records.insert(log.records.end(), log.drafts.data(), end);
         }
@@ -266,15 +304,13 @@ TYPED_TEST(GuideLaws, SumsMergeToTheSameBytes) {
 
 /// Law 6: what is decoded is what was encoded, and so is what is sampled from it; nothing else is decoded.
 TYPED_TEST(GuideLaws, WhatIsDecodedSamplesAlike) {
-    for (const auto& [name, model, region] : TestFixture::models()) {
+    for (const auto& [name, model, region, position] : TestFixture::models()) {
         const Bytes bytes = TypeParam::encode(model);
-        const AnyModel decoded = AnyModel::decode(bytes);
-        ASSERT_NE(decoded.get_if<typename TypeParam::Model>(), nullptr) << name;
-        EXPECT_TRUE(*decoded.get_if<typename TypeParam::Model>() == model) << name;
-        EXPECT_EQ(decoded.encode(), bytes) << name;
-        const typename TypeParam::Sampler before(model);
-        const AnySampler sampler(decoded);
-        const auto& after = sampler.template get<typename TypeParam::Sampler>();
+        const auto any = TestFixture::decoded(bytes);
+        const typename TypeParam::Model& decoded = TestFixture::model_of(any);
+        EXPECT_TRUE(decoded == model) << name;
+        EXPECT_EQ(TypeParam::encode(decoded), bytes) << name;
+        const typename TypeParam::Sampler before(model), after = TestFixture::sampler_of(any);
         for (std::uint32_t i = 0; i < 4096; ++i) {
             const Draw random = draw({7, i, 0}, 0, Stream::scatter);
             const auto a = before.sample(region, random), b = after.sample(region, random);
@@ -282,16 +318,18 @@ TYPED_TEST(GuideLaws, WhatIsDecodedSamplesAlike) {
             ASSERT_EQ(before.cell(region, a.code), after.cell(region, a.code)) << name;
         }
         for (std::size_t cut = 1; cut < bytes.size(); cut += bytes.size() / 50 + 1)
-            EXPECT_THROW(AnyModel::decode({bytes.data(), bytes.size() - cut}), FormatError) << name;
+            EXPECT_THROW(TestFixture::decoded({bytes.data(), bytes.size() - cut}), FormatError) << name;
     }
 }
 
 /// What is kept of a learner in a checkpoint is all that it remembers.
 TYPED_TEST(GuideLaws, WhoGoesOnFromACheckpointLearnsAlike) {
     using Sampler = typename TypeParam::Sampler;
-    const AnyModel first(TestFixture::first());
-    const auto sums = [](const AnyModel& model, unsigned seed) {
-        const auto& of_guide = *model.get_if<typename TypeParam::Model>();
+    using Any = typename TestFixture::ModelOfAny;
+    using Learner = typename TestFixture::LearnerOfAny;
+    const Any first(TestFixture::first());
+    const auto sums = [](const Any& model, unsigned seed) {
+        const auto& of_guide = TestFixture::model_of(model);
         const Sampler guide(of_guide);
         Records records = test::random_records(guide, 20'000, seed);
         for (Record& record : records)
@@ -300,52 +338,56 @@ TYPED_TEST(GuideLaws, WhoGoesOnFromACheckpointLearnsAlike) {
             records.push_back(light_record(region, guide.quantum_exponent(region), 3, 0.5f, 1.0f));
         return TestFixture::sums_of(guide, of_guide.pass, records);
     };
-    const auto learn = [&](AnyLearner& learner, const AnyModel& model, unsigned seed) {
+    const auto learn = [&](Learner& learner, const Any& model, unsigned seed) {
         RefineReport report;
-        return learner.learn(model, sums(model, seed).take_blocks(), {.spatial_threshold = 1000}, true, report);
+        CellSums recorded = sums(model, seed);
+        if constexpr (std::is_same_v<Learner, AnyLearner>)
+            return learner.learn(model, recorded.take_blocks(), {.spatial_threshold = 1000}, true, report);
+        else
+            return learner.learn(model, recorded, {.spatial_threshold = 1000}, true, report);
     };
-    AnyLearner learner;
-    const AnyModel second = learn(learner, first, 1);
+    Learner learner;
+    const Any second = learn(learner, first, 1);
     ByteWriter writer;
     WriteArchive write(writer);
     write(learner);
     const Bytes bytes = writer.take();
     ByteReader reader(bytes);
     ReadArchive read(reader);
-    AnyLearner kept, forgetful;
+    Learner kept, forgetful;
     read(kept);
     reader.expect_end();
-    const AnyModel third = learn(learner, second, 2);
+    const Any third = learn(learner, second, 2);
     EXPECT_TRUE(learn(kept, second, 2) == third);
     EXPECT_FALSE(learn(forgetful, second, 2) == third) << "it remembers nothing that matters";
 }
 
 /// What is told of a model in reports and plans is what it is.
 TYPED_TEST(GuideLaws, FiguresAreTheModels) {
-    for (const auto& [name, model, region] : TestFixture::models()) {
-        const AnyModel any(model);
+    for (const auto& [name, model, region, position] : TestFixture::models()) {
         const typename TypeParam::Sampler sampler(model);
-        const ModelFigures shape = any.figures();
-        const typename StatisticOf<TypeParam>::Sums sums =
-            CellAccumulator<typename TypeParam::Sampler>(0, sampler).take();
-        const Blocks blocks = any.blocks(false);
-        EXPECT_EQ(blocks.sums(0).shape(), sums.blocks().sums(0).shape()) << name << ": coordinator and workers differ";
-        EXPECT_EQ(shape.regions, sampler.region_count()) << name;
-        EXPECT_EQ(shape.regions, model.leaf_count()) << name;
-        EXPECT_EQ(shape.regions + shape.views, sampler.distribution_count()) << name;
-        EXPECT_EQ(shape.cells, sampler.cell_count()) << name;
-        EXPECT_EQ(any.cells_by_region().size(), shape.regions) << name;
-        const std::vector<float> map = any.density_map(region, 4);
-        double sum = 0;
-        for (const float density : map)
-            sum += double(density) * 4 * 3.14159265358979 / double(map.size());
-        EXPECT_NEAR(sum, 1.0, 1e-4) << name;
-        // A table of the first halvings of space is there whatever the model.
-        const SamplerCost cost = any.cost();
-        const double table = 1 << 14;
-        const double expected = double((cost.region + sizeof(LightProbabilities)) * shape.regions +
-                                       cost.view * shape.views + cost.cell * shape.cells);
-        EXPECT_NEAR((double(sampler.bytes()) - table) / expected, 1.0, 0.3) << name << ": plans forecast otherwise";
+        const ModelFigures figures = TypeParam::figures(model);
+        EXPECT_EQ(figures.regions, sampler.region_count()) << name;
+        EXPECT_EQ(figures.regions, model.leaf_count()) << name;
+        EXPECT_EQ(figures.regions + figures.views, sampler.distribution_count()) << name;
+        EXPECT_EQ(figures.cells, sampler.cell_count()) << name;
+        if constexpr (TestFixture::kListed) {
+            const AnyModel any(model);
+            const auto counted = CellAccumulator<typename TypeParam::Sampler>(0, sampler).take();
+            EXPECT_EQ(any.blocks(false).sums(0).shape(), counted.blocks().sums(0).shape()) << name;
+            EXPECT_EQ(any.cells_by_region().size(), figures.regions) << name;
+            const std::vector<float> map = any.density_map(region, 4);
+            double sum = 0;
+            for (const float density : map)
+                sum += double(density) * 4 * 3.14159265358979 / double(map.size());
+            EXPECT_NEAR(sum, 1.0, 1e-4) << name;
+            // A table of the first halvings of space is there whatever the model.
+            const SamplerCost cost = any.cost();
+            const double table = 1 << 14;
+            const double expected = double((cost.region + sizeof(LightProbabilities)) * figures.regions +
+                                           cost.view * figures.views + cost.cell * figures.cells);
+            EXPECT_NEAR((double(sampler.bytes()) - table) / expected, 1.0, 0.3) << name << ": plans forecast otherwise";
+        }
     }
 }
 

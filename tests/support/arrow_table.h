@@ -23,7 +23,7 @@ inline const std::vector<std::vector<std::string>> kFloors = {
      "common/decide/emission"},
     {"common/decide", "common/guiding/statistics"},
     {"common/runs", "common/guiding/regions"},
-    {"common/guiding/grid", "common/guiding/qtable", "common/guiding/sd_tree"},
+    {"common/guiding/beside", "common/guiding/grid", "common/guiding/qtable", "common/guiding/sd_tree"},
     {"common/guiding"},
     {"common/config", "common/scene/model"},
     {"common/scene/uses"},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "worker/guides/beside_walk.h"
 #include "worker/guides/plain_walk.h"
 #include "worker/guides/qtable_walk.h"
 #include "worker/guides/sd_tree_walk.h"
@@ -19,6 +20,10 @@ struct WalkOfSampler<SdTreeSampler> {
 template <>
 struct WalkOfSampler<QTableSampler> {
     using type = QTableWalk;
+};
+template <class A, class B>
+struct WalkOfSampler<BesideSampler<A, B>> {
+    using type = BesideWalk<typename WalkOfSampler<typename A::Sampler>::type, BesideSampler<A, B>>;
 };
 template <class Sampler>
 using WalkOf = typename WalkOfSampler<Sampler>::type;

@@ -97,7 +97,8 @@ PointFacts surface_facts(const TraceScene& scene, const InspectedPoint& point) {
 /// Surface at the point, in the form that a guide requires.
 struct SeenSurface {
     static constexpr bool kGeneral = true;
-    bool depends;
+    bool is_smooth, depends;
+    bool smooth() const { return is_smooth; }
     bool view_dependent() const { return depends; }
 };
 
@@ -109,8 +110,9 @@ typename G::Guidance guidance_at(const typename G::Sampler& guide, const Inspect
     if (facts.smooth) guidance.bsdf_fraction = guide.bsdf_fraction(guidance.region);
     typename G::Outgoing outgoing{};
     if constexpr (G::kLocal)
-        G::template localise<true>(guide, SeenSurface{point.surface && facts.smooth && facts.view_dependent},
-                                   point.outgoing, outgoing, guidance);
+        G::template localise<true>(guide,
+                                   SeenSurface{facts.smooth, point.surface && facts.smooth && facts.view_dependent},
+                                   point.hit.p, point.outgoing, outgoing, guidance);
     return guidance;
 }
 
@@ -123,6 +125,10 @@ Resolved unguided(const Resolved& job) {
     if (plain.integrator.max_depth > 0) --plain.integrator.max_depth;
     return plain;
 }
+
+/// Type by which this file compiles kernels of its own. With NoObserver the program would have two copies of each, and
+/// the linker could take the renderer's from here, where the compiler inlines less.
+struct Unobserved : NoObserver {};
 
 /// Sums over the samples of a square.
 struct Square {
@@ -209,7 +215,7 @@ class PointTracer {
     const std::uint64_t seed_;
     UnitStats stats_;
     Scatterer<Surface> scatterer_;
-    using Kernel = PathKernel<NoGuide, Surface, false, false>;
+    using Kernel = PathKernel<NoGuide, Surface, false, false, Unobserved>;
     Kernel kernel_;
     std::array<Rgb, Kernel::kGroup> waiting_;  ///< f |cos| of the directions that the kernel's paths start into
 };
@@ -265,9 +271,10 @@ PointFacts point_facts(const TraceScene& scene, const AnySampler& guide, const I
         const auto guidance = guidance_at<Walk>(sampler, point, facts);
         facts.guidance.region = guidance.region;
         facts.guidance.bsdf_fraction = guidance.bsdf_fraction;
-        if constexpr (Walk::kLocal) {
-            facts.guidance.view = guidance.view;
-            facts.guidance.view_fraction = guidance.view_fraction;
+        if constexpr (std::derived_from<typename Walk::Guidance, ViewTechnique::Local>) {
+            const ViewTechnique::Local& view = guidance;
+            facts.guidance.view = view.distribution;
+            facts.guidance.view_fraction = view.fraction;
         }
     });
     return facts;

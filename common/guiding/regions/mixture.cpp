@@ -31,6 +31,20 @@ double best_bsdf_fraction(const MixtureHistogram& histogram, double prior, doubl
     return 0.5 * (low + high);
 }
 
+double learn_fraction(MixtureHistogram& histogram, std::span<const std::uint64_t> bins, int exponent,
+                      std::uint64_t records, double prior) {
+    double fresh = 0;
+    for (std::size_t b = 0; b < kMixtureBins; ++b) {
+        const double h = std::ldexp(static_cast<double>(bins[b]), exponent);
+        histogram[b] = kKeptEvidence * histogram[b] + h;
+        fresh += h;
+    }
+    const double mean_record = records > 0 ? fresh / static_cast<double>(records) : 0.0;
+    const double prior_weight =
+        tuned("learning.mixture_prior_records") * (mean_record > 0 ? mean_record : histogram_total(histogram));
+    return prior_weight > 0 ? best_bsdf_fraction(histogram, prior, prior_weight) : prior;
+}
+
 void MixtureLearner::learn(const RegionModel& tree, const CellSums& sums, std::span<const RegionOrigin> origins,
                            RegionModel& next) {
     const std::size_t regions = tree.leaf_count();
@@ -39,21 +53,9 @@ void MixtureLearner::learn(const RegionModel& tree, const CellSums& sums, std::s
     histograms_.resize(regions);
     std::vector<float> fraction(regions);
     for (std::size_t r = 0; r < regions; ++r) {
-        MixtureHistogram& histogram = histograms_[r];
-        const auto bins = sums.mixture(static_cast<std::uint32_t>(r));
-        double fresh = 0;
-        for (std::size_t b = 0; b < kMixtureBins; ++b) {
-            const double h = std::ldexp(static_cast<double>(bins[b]), tree.quantum_exponent[r]);
-            histogram[b] = kKeptEvidence * histogram[b] + h;
-            fresh += h;
-        }
-        const std::uint64_t records = sums.counts()[r];
-        const double mean_record = records > 0 ? fresh / static_cast<double>(records) : 0.0;
-        const double prior_weight =
-            tuned("learning.mixture_prior_records") * (mean_record > 0 ? mean_record : histogram_total(histogram));
-        const auto prior = static_cast<double>(tree.bsdf_fraction[r]);
-        fraction[r] = prior_weight > 0 ? static_cast<float>(best_bsdf_fraction(histogram, prior, prior_weight))
-                                       : tree.bsdf_fraction[r];
+        fraction[r] = static_cast<float>(learn_fraction(histograms_[r], sums.mixture(static_cast<std::uint32_t>(r)),
+                                                        tree.quantum_exponent[r], sums.counts()[r],
+                                                        static_cast<double>(tree.bsdf_fraction[r])));
     }
     std::vector<MixtureHistogram> inherited;
     inherited.reserve(origins.size());

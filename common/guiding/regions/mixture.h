@@ -15,9 +15,12 @@ namespace treefarm {
 /// Probability of sampling the BSDF instead of the guide, learned per region once per pass from histograms that merge
 /// exactly, not by an optimiser's step per record (docs/design/guiding.md, "mixture").
 ///
-/// A direction is drawn from p_s = a p_B + (1 - a) p_T. With r = p_B / (p_B + p_T), bin b of the histogram collects H_b
-/// = sum of f |cos| L / p_s over the directions whose r is in the bin. Its expectation is the integral of f |cos| L
-/// over these directions, independent of a, so histograms of passes, regions and workers add up.
+/// A vertex may have any number of techniques. They are learned one by one, each beside the mixture of those before it,
+/// as the guide's first (density p_T) beside the BSDF (p_B) here, with that mixture's density in place of p_B
+/// (worker/guides/technique_list.h). A direction is drawn from p_s = a p_B + (1 - a) p_T. With r = p_B / (p_B + p_T),
+/// bin b of the histogram collects H_b = sum of f |cos| L / p_s over the directions whose r is in the bin. Its
+/// expectation is the integral of f |cos| L over these directions, independent of a, so histograms of passes, regions
+/// and workers add up.
 
 /// Histogram bin of a direction with these densities (per steradian).
 inline std::uint8_t mixture_bin(float bsdf_pdf, float tree_pdf) {
@@ -41,6 +44,14 @@ double histogram_total(const MixtureHistogram& histogram);
 /// Kullback-Leibler divergence. It maximises sum_b H_b log(a r_b + (1 - a)(1 - r_b)) + prior_weight (prior log a + (1 -
 /// prior) log(1 - a)), which is concave. `prior_weight` is in the units of the histogram.
 double best_bsdf_fraction(const MixtureHistogram& histogram, double prior, double prior_weight);
+
+/// Learned fraction of the techniques before one technique, in the mixture of both: of the BSDF beside the region's
+/// distribution, or of what a region samples without a further technique beside that one. `bins`: sums of a pass, in
+/// units of 2^exponent, from `records` vertices; they are added to `histogram`, whose earlier sums lose weight by
+/// kKeptEvidence. `prior`, the fraction before, counts as learning.mixture_prior_records (policy.h) records; it is kept
+/// without evidence.
+double learn_fraction(MixtureHistogram& histogram, std::span<const std::uint64_t> bins, int exponent,
+                      std::uint64_t records, double prior);
 
 /// Learner of the mixtures.
 class MixtureLearner {

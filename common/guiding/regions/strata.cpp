@@ -78,17 +78,23 @@ void set_strata(std::span<const double> weight, double even_part, std::uint32_t*
 }
 
 StrataSampler::Sample StrataSampler::sample(std::uint32_t region, const Draw& random) const {
+    const SquareSample drawn = sample_square(region, random[1], random[2], random[3]);
+    return {square_to_direction(drawn.at), drawn.code, drawn.pdf};
+}
+
+StrataSampler::SquareSample StrataSampler::sample_square(std::uint32_t region, std::uint32_t pick, std::uint32_t u0,
+                                                         std::uint32_t u1) const {
     const std::uint32_t* const mass = &mass_[region * kStrata];
-    std::uint32_t rest = random[1] >> (32 - kMassBits), stratum = 0;
+    std::uint32_t rest = pick >> (32 - kMassBits), stratum = 0;
     while (rest >= mass[stratum])
         rest -= mass[stratum++];
     // On a grid of 2^23 steps per axis, whose centres are exact floats, the point is in the stratum by construction.
     constexpr int kFineBits = 23 - kDirectionBits, kInStratum = 23 - kStrataDepth;
-    const std::uint32_t x = (compact_bits(stratum) << kInStratum) + (random[2] >> (32 - kInStratum));
-    const std::uint32_t y = (compact_bits(stratum >> 1) << kInStratum) + (random[3] >> (32 - kInStratum));
+    const std::uint32_t x = (compact_bits(stratum) << kInStratum) + (u0 >> (32 - kInStratum));
+    const std::uint32_t y = (compact_bits(stratum >> 1) << kInStratum) + (u1 >> (32 - kInStratum));
     const auto coordinate = [](std::uint32_t step) { return static_cast<float>(2 * step + 1) * 0x1p-24f; };
     const std::uint32_t code = spread_bits(x >> kFineBits) | (spread_bits(y >> kFineBits) << 1);
-    return {square_to_direction({coordinate(x), coordinate(y)}), code, pdf(region, code)};
+    return {{coordinate(x), coordinate(y)}, code, pdf(region, code)};
 }
 
 float StrataSampler::pdf(std::uint32_t region, std::uint32_t code) const {

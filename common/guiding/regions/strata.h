@@ -37,12 +37,21 @@ class StrataSampler : public RegionSampler {
     StrataSampler(const RegionModel& model, std::vector<std::uint32_t> mass)
         : RegionSampler(model), mass_(std::move(mass)) {}
 
+    /// A sampled point of the direction square, with the density of the stratum that it was drawn from.
+    struct SquareSample {
+        Vec2 at;
+        std::uint32_t code;  ///< its Z-order code, inside the sampled stratum
+        float pdf;           ///< per steradian of the direction
+    };
+    /// A sampled direction.
     struct Sample {
         Vec3 direction;      ///< unit length
         std::uint32_t code;  ///< its Z-order code, inside the sampled stratum
         float pdf;           ///< per steradian
     };
     Sample sample(std::uint32_t region, const Draw& random) const;
+    /// Draws a point; `pick`, `u0` and `u1` are uniform 32-bit numbers.
+    SquareSample sample_square(std::uint32_t region, std::uint32_t pick, std::uint32_t u0, std::uint32_t u1) const;
     float pdf(std::uint32_t region, std::uint32_t code) const;
 
     // Cells of records, for CellAccumulator.

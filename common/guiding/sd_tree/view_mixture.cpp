@@ -33,22 +33,14 @@ std::vector<ViewAdvice> ViewLearner::judge(const SdTree& tree, const CellSums& s
     for (std::uint32_t v = 0; v < views; ++v) {
         const std::uint32_t distribution = regions + v;
         Evidence& evidence = views_[v];
-        const auto bins = sums.mixture(distribution);
-        double fresh = 0;
-        for (std::size_t b = 0; b < kMixtureBins; ++b) {
-            const double h = std::ldexp(static_cast<double>(bins[b]), tree.quantum_exponent[distribution]);
-            evidence.histogram[b] = kKeptEvidence * evidence.histogram[b] + h;
-            fresh += h;
-        }
-        const auto records = static_cast<double>(sums.counts()[distribution]);
-        const double mean_record = records > 0 && fresh > 0 ? fresh / records : histogram_total(evidence.histogram);
+        const std::uint64_t records = sums.counts()[distribution];
         const double prior = 1.0 - static_cast<double>(tree.view_fraction[v]);
-        if (mean_record > 0)
-            evidence.others =
-                best_bsdf_fraction(evidence.histogram, prior, tuned("learning.mixture_prior_records") * mean_record);
+        const double others = learn_fraction(evidence.histogram, sums.mixture(distribution),
+                                             tree.quantum_exponent[distribution], records, prior);
+        if (histogram_total(evidence.histogram) > 0) evidence.others = others;
         const double gain = std::max(0.0, view_gain(evidence.histogram, evidence.others));
         idle[v] = 1.0 - evidence.others < tuned("learning.idle_fraction") || gain < tuned("learning.least_view_gain");
-        advice[v].gain = records * gain;
+        advice[v].gain = static_cast<double>(records) * gain;
         if (!idle[v]) gain_of_all += advice[v].gain;
     }
     const bool all_idle = gain_of_all < tuned("learning.least_view_gain_of_all") * all_records;

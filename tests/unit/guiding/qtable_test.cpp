@@ -129,7 +129,7 @@ TEST(QTable, TwoPlanesHaveTheirFixedPoint) {
             for (const auto plane : {static_cast<std::uint32_t>(path % 2), static_cast<std::uint32_t>(1 - path % 2)}) {
                 const QTableWalk::Target target =
                     recorder.vertex_count() == 0 ? QTableWalk::Target{plane} : QTableWalk::Target{};
-                recorder.add_vertex(target, code[plane], 0.3f, Rgb(static_cast<float>(albedo[plane])), 3, 1u << 31,
+                recorder.add_vertex(target, code[plane], 0.3f, Rgb(static_cast<float>(albedo[plane])), {3}, 1u << 31,
                                     guide.radiance(plane, code[plane]));
                 if (plane == 0) recorder.add_emission(Rgb(static_cast<float>(emitted)));
             }

@@ -91,10 +91,11 @@ TEST(ViewMixture, OfUseToFewIsReleasedToo) {
 
 TEST(ViewMixture, TakesItsPartOfWhatRegionAndBsdfShare) {
     const float region_fraction = 0.6f;
-    const SdTreeGuidance guidance{0, 1, region_fraction * (1 - 0.25f), 0.25f};
-    EXPECT_NEAR(without_view(guidance, 2.0f, 3.0f), mixed_pdf(region_fraction, 2.0f, 3.0f), 1e-6f);
-    EXPECT_NEAR(mixed_pdf(guidance, 2.0f, 3.0f, 7.0f), 0.25f * 7 + 0.75f * mixed_pdf(region_fraction, 2.0f, 3.0f),
-                1e-6f);
+    using List = SdTreeWalk<true>::List;
+    const List::Guidance guidance{{0, region_fraction * (1 - 0.25f)}, {1, 0.25f}};
+    EXPECT_NEAR(List::pdf_before<0>(guidance, 2.0f, 3.0f, {7.0f}), mixed_pdf(region_fraction, 2.0f, 3.0f), 1e-6f);
+    EXPECT_NEAR(List::mixed_pdf(guidance, 2.0f, 3.0f, {7.0f}),
+                0.25f * 7 + 0.75f * mixed_pdf(region_fraction, 2.0f, 3.0f), 1e-6f);
 }
 
 }  // namespace

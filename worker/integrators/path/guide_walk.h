@@ -12,8 +12,8 @@
 namespace treefarm {
 
 /// Adapter by which the path walk uses a guide, inlined, for a batch of paths. Learned data and look-ups belong to the
-/// guide (worker/guides); regions and their common data belong to the walk. worker/guides/plain_walk.h derives the
-/// whole adapter from a guide's sample() and pdf().
+/// guide (worker/guides); regions and their common data belong to the walk. worker/guides/list_walk.h derives most of
+/// the adapter from a list of techniques.
 ///
 /// In the walk's order: a path's region is found, and prefetch() called; localise(), for guides that depend on more
 /// than the region, once the surface is known; LightBatch holds next event's directions, for pdf(); ScatterBatch draws

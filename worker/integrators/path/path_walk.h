@@ -242,7 +242,7 @@ class PathWalk {
         ++stats_.vertices;
         path.guidance.bsdf_fraction = kGuided && surface.smooth() ? guide_.bsdf_fraction(path.guidance.region) : 1.0f;
         if constexpr (kLocal)
-            G::template localise<kGuided>(guide_, surface, -ray.direction, path.outgoing, path.guidance);
+            G::template localise<kGuided>(guide_, surface, hit.p, -ray.direction, path.outgoing, path.guidance);
         if constexpr (kGuided && kLocal) directions_.prefetch_local(path);
         if constexpr (kRecord)
             if (surface.smooth() && !guide_.contains(hit.p)) recorders_[index].add_outside();
@@ -301,7 +301,10 @@ class PathWalk {
         }
         emitters_.draw();
         for (std::uint32_t i = 0; i < count; ++i)
-            next_event(smooth[i]);
+            if constexpr (Surface::kGeneral)
+                next_event(smooth[i]);
+            else
+                sample_emitter(smooth[i]);
     }
 
     /// Point of a path's vertex, as next event chooses an emitter for it.
@@ -311,8 +314,11 @@ class PathWalk {
                 path.surface->transmits() ? nullptr : &front};
     }
 
-    /// Samples an emitter; the visibility is tested for all paths of a step together.
-    void next_event(std::uint8_t index) {
+    void next_event(std::uint8_t index) { sample_emitter(index); }
+
+    /// Samples an emitter; the visibility is tested for all paths of a step together. Inlined also where it is called
+    /// for many paths, if surfaces are simple; g++ inlines less of larger units.
+    [[gnu::always_inline]] void sample_emitter(std::uint8_t index) {
         const Path& path = paths_[index];
         const Surface& surface = *path.surface;
         const LightReceiver at = receiver(path);

@@ -65,7 +65,8 @@ class PendingLights {
     PendingLight<G>& operator[](std::size_t i) { return lights_[i]; }
 
     /// Adds a light sample at `hit`; `bsdf`: its BSDF value, if known already.
-    void add(const Hit& hit, const DirectSample& light, const LightSeeker<G>& from, const BsdfValue& bsdf) {
+    [[gnu::always_inline]] void add(const Hit& hit, const DirectSample& light, const LightSeeker<G>& from,
+                                    const BsdfValue& bsdf) {
         assert(count_ < kMost);
         PendingLight<G>& pending = lights_[count_];
         pending.from = from;

@@ -15,7 +15,7 @@ struct ScatterSample {
     float effective_pdf;  ///< pdf, or its replacement if one of several candidates was taken (candidates.h)
     float bsdf_pdf;       ///< of the BSDF alone
     float guide_pdf;      ///< of the region's learned distribution alone, if it guides
-    bool guided;          ///< not drawn from the BSDF
+    bool guided;          ///< drawn by a technique of the guide, not from the BSDF
     bool delta;           ///< of a lobe without density, which the guide cannot sample
 };
 
