@@ -53,7 +53,6 @@ class PathWalk {
     }
 
     PathWalk(const PathWalk&) = delete;
-
     /// Path slot; filled by the caller before walk().
     Path& operator[](std::uint32_t slot) { return paths_[slot]; }
     Recorder& recorder(std::uint32_t slot) { return recorders_[slot]; }
@@ -71,7 +70,6 @@ class PathWalk {
     /// Branches at glass and split paths that the traced paths left; the caller of walk() traces and removes them.
     GlassSplits& glass_splits() { return glass_; }
     SplitPaths& split_paths() { return split_paths_; }
-
     const PathSettings& settings() const { return settings_; }
     Observer& observer() { return observer_; }
     PhaseClock& clock() { return clock_; }
@@ -315,16 +313,13 @@ class PathWalk {
     }
 
     void next_event(std::uint8_t index) { sample_emitter(index); }
-
-    /// Samples an emitter; the visibility is tested for all paths of a step together. Inlined also where it is called
-    /// for many paths, if surfaces are simple; g++ inlines less of larger units.
+    /// Samples an emitter; its visibility is tested for all paths of a step together. Inlined where surfaces are simple.
     [[gnu::always_inline]] void sample_emitter(std::uint8_t index) {
         const Path& path = paths_[index];
         const Surface& surface = *path.surface;
         const LightReceiver at = receiver(path);
         const DirectSample light = emitters_.sample(at, path);
-        if (!chances_.accepts(path, light.delta)) return;
-        if (!(light.pdf > 0.0f) || light.black()) return;
+        if (!chances_.accepts(path, light.delta) || !(light.pdf > 0.0f) || light.black()) return;
         BsdfValue bsdf;
         if (surface.evaluate_late()) {
             if (at.one_sided && !(dot(at.front, light.wi) > 0.0f)) return;
