@@ -313,7 +313,7 @@ class PathWalk {
     }
 
     void next_event(std::uint8_t index) { sample_emitter(index); }
-    /// Samples an emitter; its visibility is tested for all paths of a step together. Inlined where surfaces are simple.
+    /// Samples an emitter; its visibility is tested for all paths of a step together. Inlined if surfaces are simple.
     [[gnu::always_inline]] void sample_emitter(std::uint8_t index) {
         const Path& path = paths_[index];
         const Surface& surface = *path.surface;
