@@ -49,7 +49,7 @@ struct Mode {
     const char* name;
     bool guided, next_event, record;
     std::vector<Ray> rays, shadow_rays;
-    TraceStats stats;
+    UnitStats stats;
     std::size_t log_records = 0;  ///< of directions and of emitters, without those that taught nothing
     std::vector<double> render_seconds{}, bare_seconds{}, best_bare_seconds{}, splat_seconds{};
 };
@@ -89,7 +89,7 @@ class Limit {
         AnyAccumulator sums(9, guide(mode), job_.guiding.directional_filter, true);
         double splat = 0;
         mode.log_records = 0;
-        const auto learn = [&](RecordLog& log) {
+        const auto learn = [&](AnyLog& log) {
             mode.log_records += log.records.size();
             splat += seconds([&] { sums.commit(log.records, log.counts, log.caps); });
         };
@@ -135,7 +135,7 @@ class Limit {
 
     /// Renders unit by unit, as workers do; `learn` receives each unit's records.
     template <class Learn>
-    void render(PassPlan pass, const Resolved& job, const AnySampler& guide, TraceStats& stats, Learn learn) {
+    void render(PassPlan pass, const Resolved& job, const AnySampler& guide, UnitStats& stats, Learn learn) {
         pass.kernel = kernel_of(job, pass, facts_of(guide));
         const Film& film = scene_.film();
         for (const WorkUnit& unit : cut_pass(pass, film.width, film.height, job.farm.tile_size)) {
@@ -156,9 +156,8 @@ class Limit {
             plan.blocks_per_unit = 1u << 20;
             const AnySampler guide(tree);
             AnyAccumulator sums(plan.index, guide, job_.guiding.directional_filter, plan.learn_mixture);
-            TraceStats stats;
-            render(plan, resolved_, guide, stats,
-                   [&](RecordLog& log) { sums.commit(log.records, log.counts, log.caps); });
+            UnitStats stats;
+            render(plan, resolved_, guide, stats, [&](AnyLog& log) { sums.commit(log); });
             RefineReport report;
             const PassPlan& coming = plans[std::min(k + 1, plans.size() - 1)];
             tree =
@@ -169,7 +168,7 @@ class Limit {
 
     template <GuideWalk G, class Surface, bool kGuided>
     void collect_with(Mode& mode) const {
-        TraceStats stats;
+        UnitStats stats;
         const Resolved mode_job = job(mode);
         const auto& sampler = guide(mode).get<typename G::Sampler>();
         PathKernel<G, Surface, kGuided, false, RayObserver> kernel(
@@ -240,7 +239,7 @@ class Limit {
     TraceScene scene_;
     std::uint32_t spp_;
     std::vector<PixelEstimate> pixels_;
-    RecordLog log_;
+    AnyLog log_;
     AnySampler guide_, untrained_;
 };
 

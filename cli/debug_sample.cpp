@@ -78,7 +78,7 @@ void trace_tile(const RenderRequest& request, const std::string& name, const Tel
     const RenderUnit render = make_renderer(request.content.scene, request.content.plan.job);
     const AnySampler guide(tree);
     UnitOutput output;
-    output.begin(guide.regions().distribution_count(), pass.layers.splats);
+    output.begin(guide, pass.layers.splats);
     const auto edge = [](std::uint32_t value) { return static_cast<std::uint16_t>(value); };
     render(pass, guide, {n[0], edge(n[1]), edge(n[2]), edge(n[3]), edge(n[4]), n[5]}, output);
     fmt::print("pass {} pixels ({}, {}) to below ({}, {}): {} paths, {} rays, {:.3f} s\n", n[0] + 1, n[1], n[2], n[3],

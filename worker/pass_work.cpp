@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/base/timer.h"
+#include "common/evidence/evidence.h"
 
 namespace treefarm {
 
@@ -15,7 +16,7 @@ void PassWork::deliver(const WorkUnit& unit, UnitOutput& output) {
     const std::shared_lock bundle(bundle_);
     if (accumulator_) {
         const double start = thread_cpu_seconds();
-        accumulator_->commit(output.log.records, output.log.counts, output.log.caps, output.log.next_event);
+        accumulator_->commit(output.log);
         output.stats.splat_seconds += thread_cpu_seconds() - start;
     }
     if (!output.splats.empty()) add_splats(output.splats);
@@ -37,23 +38,30 @@ void PassWork::add_splats(SplatLog& log) {
 std::optional<Result> PassWork::close() {
     Result result;
     result.pass = plan_.index;
-    std::optional<CellSums> sums;
+    UnitStats stats;
+    std::optional<Blocks> taught;
     {
         const std::unique_lock bundle(bundle_);
         if (units_.empty()) return std::nullopt;
         result.units = std::exchange(units_, {});
         bundle_bytes_ = 0;
-        result.stats = std::exchange(stats_, {});
-        if (accumulator_) sums = accumulator_->take();
+        stats = std::exchange(stats_, {});
+        if (accumulator_) taught = accumulator_->take();
         if (std::exchange(splatted_, false)) {
             result.splats = splats_.encode();
             splats_.clear();
         }
     }
-    if (!sums) return result;
-    result.update = sums->encode();
-    sums->clear();
-    accumulator_->give_back(std::move(*sums));
+    Blocks decided = Decisions::blocks();
+    Decisions::put(stats.decided, decided);
+    std::vector<const Blocks*> owners{&decided};
+    if (taught) owners.push_back(&*taught);
+    result.evidence = encode_evidence(plan_.index, owners);
+    result.stats = std::move(stats);
+    if (taught) {
+        taught->clear();
+        accumulator_->give_back(std::move(*taught));
+    }
     return result;
 }
 

@@ -43,7 +43,7 @@ class PassWork {
     std::mutex units_lock_;
     std::vector<UnitResult> units_;
     std::atomic<std::size_t> bundle_bytes_{0};
-    TraceStats stats_;
+    UnitStats stats_;
     std::optional<AnyAccumulator> accumulator_;  ///< in passes that record
     std::mutex splats_lock_;
     SplatSums splats_;  ///< allocated when the first unit splats

@@ -64,7 +64,7 @@ RenderUnit with_aovs(const Integrator& integrator, const std::shared_ptr<const T
         first_hit.render(pass, unit, output.aovs);
         if (direct) {
             UnitOutput part;
-            part.begin(guide.regions().distribution_count());
+            part.begin(guide);
             direct(pass, guide, unit, part);
             output.aovs.direct = std::move(part.pixels);
         }

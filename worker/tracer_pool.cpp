@@ -114,7 +114,7 @@ void TracerPool::run(State& state) {
 
 void TracerPool::trace(State& state, PassWork& pass, const WorkUnit& unit, UnitOutput& output) {
     const Timer timer;
-    output.begin(pass.guide().regions().distribution_count(), pass.plan().layers.splats);
+    output.begin(pass.guide(), pass.plan().layers.splats);
     state.render(pass.plan(), pass.guide(), unit, output);
     output.stats.busy_seconds += timer.seconds();
     state.samples += output.stats.paths;

@@ -16,16 +16,19 @@
 #include "common/decide/next_event/next_event_decision.h"
 #include "common/decide/sample_cost.h"
 #include "common/decide/splitting/splitting_decision.h"
-#include "common/decide/trace_stats.h"
+#include "common/evidence/blocks.h"
+#include "common/evidence/declared_sums.h"
 
 namespace treefarm {
 
 /// Requirements of a decision, by which a finished pass changes later ones. `Evidence` are the sums of a pass that it
-/// judges by (TraceStats::sums()), `Memory` outlives the pass, `Figures` are reported with it. Memory and figures
-/// archive themselves, for checkpoints: serialize(), which throws FormatError for values read that no render has.
+/// judges by, a block of the pass's evidence; `Memory` outlives the pass; `Figures` are reported with it. Memory and
+/// figures archive themselves, for checkpoints: serialize(), which throws FormatError for values read that no render
+/// has.
 /// Tables of tuned constants are listed in `kConstants`, if it has any.
 template <class D>
-concept Decision = std::default_initializable<typename D::Memory> && std::default_initializable<typename D::Figures> &&
+concept Decision = DeclaredSums<typename D::Evidence> && std::default_initializable<typename D::Memory> &&
+    std::default_initializable<typename D::Figures> &&
     requires(const JudgedPass& pass, const typename D::Evidence& evidence, typename D::Memory& memory,
              typename D::Figures& figures, PassPlan& plan) {
     D::judge(pass, evidence, memory, figures);
@@ -53,19 +56,37 @@ struct DecisionParts {
     void serialize(Archive& archive) {
         std::apply([&](auto&... part) { archive(part...); }, all);
     }
+    void add(const DecisionParts& other) { (..., get<Part>().add(other.template get<Part>())); }
 };
 
 /// List of decisions, which judge a pass in this order.
 template <Decision... D>
 struct DecisionList {
+    using Evidence = DecisionParts<typename D::Evidence...>;
     using Memories = DecisionParts<typename D::Memory...>;
     using Figures = DecisionParts<typename D::Figures...>;
 
-    static void judge(JudgedPass pass, const TraceStats& stats, Memories& memories, Figures& figures) {
+    /// Empty blocks of the decisions.
+    static Blocks blocks() {
+        static constexpr std::array<BlockShape, sizeof...(D)> kShapes{D::Evidence::kBlock...};
+        return Blocks(kShapes);
+    }
+    /// Adds a pass's sums to the blocks.
+    static void put(const Evidence& sums, Blocks& blocks) {
+        std::size_t block = 0;
+        (..., put_sums(sums.template get<typename D::Evidence>(), blocks.sums(block++)));
+    }
+    /// Sums of the blocks.
+    static Evidence evidence(const Blocks& blocks) {
+        std::size_t block = 0;
+        return {{sums_of<typename D::Evidence>(blocks.sums(block++))...}};
+    }
+
+    static void judge(JudgedPass pass, const Evidence& sums, Memories& memories, Figures& figures) {
         pass.sample_cost = sample_cost(pass.plan, pass.counts);
         const auto judge_one = [&]<class One>() {
             auto& memory = memories.template get<typename One::Memory>();
-            One::judge(pass, stats.sums<typename One::Evidence>(), memory,
+            One::judge(pass, sums.template get<typename One::Evidence>(), memory,
                        figures.template get<typename One::Figures>());
             One::apply(pass.next, memory);
         };

@@ -93,15 +93,35 @@ bool AnyModel::grows() const {
     return visit([]<class G>(const auto&) { return G::kGrows; });
 }
 
-SumsShape AnyModel::sums_shape(bool with_mixture) const {
-    const ModelFigures size = figures();
-    return {static_cast<std::uint32_t>(size.regions),
-            static_cast<std::uint32_t>(size.cells),
-            with_mixture,
-            static_cast<std::uint32_t>(size.views),
-            regions().learns_lights(),
-            visit([]<class G>(const auto&) { return counts_visits<typename G::Sampler>(); }),
-            regions().decides_next_event()};
+namespace {
+
+/// Shape of the sums of a pass over a model of guide `G`.
+template <class G, class Model>
+typename StatisticOf<G>::Shape shape_of(const Model& model, bool with_mixture) {
+    if constexpr (requires { typename G::Statistic; }) {
+        return G::Statistic::shape(model, with_mixture);
+    } else {
+        const ModelFigures size = G::figures(model);
+        return {static_cast<std::uint32_t>(size.regions),
+                static_cast<std::uint32_t>(size.cells),
+                with_mixture,
+                static_cast<std::uint32_t>(size.views),
+                model.learns_lights(),
+                counts_visits<typename G::Sampler>(),
+                model.decides_next_event()};
+    }
+}
+
+}  // namespace
+
+Blocks AnyModel::blocks(bool with_mixture) const {
+    return visit([&]<class G>(const auto& model) {
+        return typename StatisticOf<G>::Sums(model.pass, shape_of<G>(model, with_mixture)).take_blocks();
+    });
+}
+
+UpdateCaps AnyModel::caps(const Blocks& blocks) const {
+    return visit([&]<class G>(const auto&) { return StatisticOf<G>::Sums::caps_of(blocks); });
 }
 
 TreeStatistics AnyModel::statistics(std::uint64_t encoded_bytes) const {
@@ -142,7 +162,7 @@ AnySampler::AnySampler(const AnyModel& model)
 AnyAccumulator::AnyAccumulator(std::uint32_t pass, const AnySampler& guide, DirectionalFilter filter,
                                bool with_mixture) {
     guide.visit([&]<class G>(const auto& sampler) {
-        accumulator_.template emplace<CellAccumulator<typename G::Sampler>>(pass, sampler, filter, with_mixture);
+        accumulator_.template emplace<1 + static_cast<std::size_t>(kind_of<G>())>(pass, sampler, filter, with_mixture);
     });
 }
 
@@ -164,26 +184,29 @@ Result with_accumulator(Accumulators& accumulators, Use use) {
 
 }  // namespace
 
-void AnyAccumulator::commit(std::span<const Record> records, std::span<const std::uint32_t> counts,
-                            const UpdateCaps& caps, std::span<const NextEventSums> next_event) {
-    with_accumulator<void>(accumulator_,
-                           [&](auto& accumulator) { accumulator.commit(records, counts, caps, next_event); });
+void AnyAccumulator::commit(const AnyLog& log) {
+    Guides::find([&]<class G>() {
+        auto* const accumulator = std::get_if<1 + static_cast<std::size_t>(kind_of<G>())>(&accumulator_);
+        if (accumulator) accumulator->commit(log.of<G>());
+        return accumulator != nullptr;
+    });
 }
 
-CellSums AnyAccumulator::take() {
-    return with_accumulator<CellSums>(accumulator_, [](auto& accumulator) { return accumulator.take(); });
+Blocks AnyAccumulator::take() {
+    return with_accumulator<Blocks>(accumulator_, [](auto& accumulator) { return accumulator.take().take_blocks(); });
 }
 
-void AnyAccumulator::give_back(CellSums cleared) {
+void AnyAccumulator::give_back(Blocks cleared) {
     with_accumulator<void>(accumulator_, [&](auto& accumulator) { accumulator.give_back(std::move(cleared)); });
 }
 
-AnyModel AnyLearner::learn(const AnyModel& model, const CellSums& sums, const RefineSettings& settings,
-                           bool learn_mixture, RefineReport& report) {
+AnyModel AnyLearner::learn(const AnyModel& model, Blocks sums, const RefineSettings& settings, bool learn_mixture,
+                           RefineReport& report) {
     return model.visit([&]<class G>(const auto& of_guide) -> AnyModel {
         using Learner = typename G::Learner;
         if (!std::holds_alternative<Learner>(learner_)) learner_.template emplace<Learner>();
-        return std::get<Learner>(learner_).learn(of_guide, sums, settings, learn_mixture, report);
+        const typename StatisticOf<G>::Sums named(of_guide.pass, shape_of<G>(of_guide, learn_mixture), std::move(sums));
+        return std::get<Learner>(learner_).learn(of_guide, named, settings, learn_mixture, report);
     });
 }
 

@@ -22,6 +22,17 @@ struct GuideOfPart<Part, GuideList<First, Rest...>> {
 template <class Part>
 using GuideOf = typename GuideOfPart<std::remove_cvref_t<Part>, Guides>::type;
 
+/// Kind of a guide.
+template <class G>
+constexpr GuideKind kind_of() {
+    int index = -1;
+    Guides::find([&]<class Other>() {
+        ++index;
+        return std::is_same_v<G, Other>;
+    });
+    return static_cast<GuideKind>(index);
+}
+
 /// Calls visit.operator()<G>() for the guide of this kind. Throws RunError if there is none.
 template <class Visit>
 void with_guide(GuideKind kind, Visit visit) {
@@ -63,8 +74,10 @@ class AnyModel {
     SamplerCost cost() const;
     bool grows() const;
 
-    /// Shape of the sums of a pass over the model. `with_mixture`: the pass records mixture histograms.
-    SumsShape sums_shape(bool with_mixture) const;
+    /// Empty blocks of what a pass over the model records. `with_mixture`: also for learning mixtures.
+    Blocks blocks(bool with_mixture) const;
+    /// Limits that were reached, of blocks of a pass over the model.
+    UpdateCaps caps(const Blocks& blocks) const;
 
     // For inspection: functions of the guide where it has them, otherwise derived from its size and its sampler.
 
@@ -125,15 +138,34 @@ class AnySampler {
     Guides::Samplers sampler_;
 };
 
-/// Accumulator of records by cell, for any guide (CellAccumulator).
+/// Logs of a work unit's records, of which its guide uses its own.
+class AnyLog {
+  public:
+    template <class G>
+    typename StatisticOf<G>::Log& of() {
+        return std::get<static_cast<std::size_t>(kind_of<G>())>(logs_);
+    }
+    template <class G>
+    const typename StatisticOf<G>::Log& of() const {
+        return std::get<static_cast<std::size_t>(kind_of<G>())>(logs_);
+    }
+    /// Clears the guide's log, keeping its memory; arguments as of RecordLogOf::begin().
+    void begin(GuideKind guide, std::uint32_t distributions, std::uint32_t regions = 0) {
+        with_guide(guide, [&]<class G>() { of<G>().begin(distributions, regions); });
+    }
+
+  private:
+    Guides::Logs logs_;
+};
+
+/// Statistic of any guide.
 class AnyAccumulator {
   public:
     AnyAccumulator(std::uint32_t pass, const AnySampler& guide, DirectionalFilter filter, bool with_mixture);
 
-    void commit(std::span<const Record> records, std::span<const std::uint32_t> counts, const UpdateCaps& caps,
-                std::span<const NextEventSums> next_event = {});
-    CellSums take();
-    void give_back(CellSums cleared);
+    void commit(const AnyLog& log);
+    Blocks take();
+    void give_back(Blocks cleared);
 
   private:
     Guides::Accumulators accumulator_;
@@ -143,8 +175,8 @@ class AnyAccumulator {
 /// except for its memory of earlier passes.
 class AnyLearner {
   public:
-    /// `learn_mixture`: the pass recorded mixture histograms.
-    AnyModel learn(const AnyModel& model, const CellSums& sums, const RefineSettings& settings, bool learn_mixture,
+    /// `sums`: blocks of a pass over the model; `learn_mixture`: it recorded for mixtures, too.
+    AnyModel learn(const AnyModel& model, Blocks sums, const RefineSettings& settings, bool learn_mixture,
                    RefineReport& report);
 
     /// Archives the state, for a checkpoint.

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <concepts>
+#include <tuple>
+#include <utility>
 #include <variant>
 
 #include "common/guiding/grid/grid.h"
@@ -11,14 +13,47 @@
 
 namespace treefarm {
 
+/// Requirements of a statistic: what a worker adds up from the records of a pass, in blocks of evidence. A log holds
+/// the records of a work unit, of the guide's own type. Sums give the blocks names; their shape is a value.
+template <class S>
+concept Statistic = requires(S& statistic, typename S::Log& log, const typename S::Log& filled, Blocks blocks,
+                             typename S::Sums sums, const typename S::Shape& shape) {
+    log.begin(1u);
+    /// Thread-safe.
+    statistic.commit(filled);
+    /// The sums, which start again from zero; cleared blocks may come back for reuse.
+    { statistic.take() } -> std::same_as<typename S::Sums>;
+    statistic.give_back(std::move(blocks));
+    requires std::constructible_from<typename S::Sums, std::uint32_t, const typename S::Shape&>;
+    requires std::constructible_from<typename S::Sums, std::uint32_t, const typename S::Shape&, Blocks>;
+    { sums.take_blocks() } -> std::same_as<Blocks>;
+    { S::Sums::caps_of(blocks) } -> std::same_as<UpdateCaps>;
+};
+
+/// Statistic of a guide: sums per cell, where it names none.
+template <class G>
+struct StatisticOfGuide {
+    using type = CellAccumulator<typename G::Sampler>;
+};
+template <class G>
+requires requires {
+    typename G::Statistic;
+}
+struct StatisticOfGuide<G> {
+    using type = typename G::Statistic;
+};
+template <class G>
+using StatisticOf = typename StatisticOfGuide<G>::type;
+
 /// Requirements of a guide (docs/use/write-a-guide.md). The model is a RegionModel with further plain values, fixed
 /// during a pass. The sampler, flat and immutable, is built from a decoded model only, so that rounding for the wire
 /// affects all processes equally; it has cells (cell_accumulator.h). The learner is the coordinator's memory of earlier
 /// passes and archives itself for checkpoints: serialize().
 template <class G>
 concept Guide = std::derived_from<typename G::Model, RegionModel> &&
-    std::derived_from<typename G::Sampler, RegionSampler> &&
-    requires(const typename G::Model& model, typename G::Learner learner, const CellSums& sums, RefineReport report) {
+    std::derived_from<typename G::Sampler, RegionSampler> && Statistic<StatisticOf<G>> &&
+    requires(const typename G::Model& model, typename G::Learner learner, const typename StatisticOf<G>::Sums& sums,
+             RefineReport report) {
     /// Magic number: first four bytes of an encoded model.
     { G::kMagic } -> std::convertible_to<std::uint32_t>;
     /// Whether passes change the number of regions and cells.
@@ -36,6 +71,8 @@ concept Guide = std::derived_from<typename G::Model, RegionModel> &&
     { learner.learn(model, sums, RefineSettings(), true, report) } -> std::same_as<typename G::Model>;
     { model == model } -> std::convertible_to<bool>;
     requires std::constructible_from<typename G::Sampler, const typename G::Model&>;
+    requires std::constructible_from < StatisticOf<G>, std::uint32_t,
+    const typename G::Sampler&, DirectionalFilter, bool > ;
 } && requires(const typename G::Sampler& sampler) {
     /// A direction drawn in a region from three uniform numbers.
     { sampler.sample(0u, Draw()).pdf } -> std::convertible_to<float>;
@@ -54,11 +91,12 @@ struct GuideList {
     using Models = std::variant<typename G::Model...>;
     using Samplers = std::variant<typename G::Sampler...>;
     using Learners = std::variant<typename G::Learner...>;
-    using Accumulators = std::variant<std::monostate, CellAccumulator<typename G::Sampler>...>;
+    using Accumulators = std::variant<std::monostate, StatisticOf<G>...>;
+    using Logs = std::tuple<typename StatisticOf<G>::Log...>;
 
     /// Calls visit.operator()<G>() for each guide until one call returns true. Returns whether one did.
     template <class Visit>
-    static bool find(Visit visit) {
+    static constexpr bool find(Visit visit) {
         return (... || visit.template operator()<G>());
     }
 };

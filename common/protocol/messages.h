@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "common/base/bytes.h"
-#include "common/decide/trace_stats.h"
 #include "common/film/aov_film.h"
 #include "common/film/pixel_estimate.h"
+#include "common/film/trace_stats.h"
 #include "common/film/work_unit.h"
 #include "common/plan/schedule/schedule.h"
 #include "common/protocol/envelope.h"
@@ -136,14 +136,14 @@ struct UnitResult {
     AovPixels aovs;  ///< AOVs that the job requests
 };
 
-/// Finished units and the guide update from exactly these units: result and acknowledgement in one message.
+/// Finished units and the evidence of exactly these units: result and acknowledgement in one message.
 struct Result {
     static constexpr Kind kKind = Kind::result;
     std::uint64_t incarnation = 0;
     std::uint32_t pass = 0;
     std::vector<UnitResult> units;
-    Bytes update;  ///< CellSums::encode(); empty if the pass records nothing
-    Bytes splats;  ///< SplatSums::encode() of exactly these units; empty if the pass has none
+    Bytes evidence;  ///< Evidence::encode()
+    Bytes splats;    ///< SplatSums::encode() of exactly these units; empty if the pass has none
     TraceStats stats;
 };
 

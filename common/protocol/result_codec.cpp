@@ -79,27 +79,13 @@ UnitResult read_unit_result(ByteReader& reader, std::uint32_t pass) {
 
 void write_stats(ByteWriter& writer, const TraceStats& s) {
     for (const std::uint64_t count :
-         {s.paths, s.nonzero_paths, s.rays, s.shadow_rays, s.vertices, s.records, s.split_path_rays, s.invalid_samples,
-          s.splitting.split_mean, s.splitting.unsplit_mean, s.splitting.split_variance, s.splitting.unsplit_variance,
-          s.light_subpaths.samples, s.light_subpaths.both_mean, s.light_subpaths.alone_mean,
-          s.light_subpaths.both_variance, s.light_subpaths.alone_variance, s.light_subpaths.alone_rays})
+         {s.paths, s.nonzero_paths, s.rays, s.shadow_rays, s.vertices, s.records, s.split_path_rays, s.invalid_samples})
         writer.put_varint(count);
-    for (const std::uint64_t sum : s.next_event)
-        writer.put_varint(sum);
-    for (const auto* moments : {&s.unguided.guided, &s.unguided.unguided})
-        for (const std::uint64_t moment : *moments)
-            writer.put_varint(moment);
-    writer.put_varint(s.unguided.cost);
     writer.put(s.trace_seconds);
     writer.put(s.splat_seconds);
     for (const double seconds : s.phase_seconds)
         writer.put(seconds);
     writer.put(s.busy_seconds);
-    writer.put_varint(s.emission.paths.size());
-    for (std::size_t i = 0; i < s.emission.paths.size(); ++i) {
-        writer.put_varint(s.emission.paths[i]);
-        writer.put_varint(s.emission.squares[i]);
-    }
     writer.put_varint(s.first_invalid.size());
     for (const InvalidSample& sample : s.first_invalid) {
         writer.put(sample.pass);
@@ -140,29 +126,14 @@ TailSample read_tail(ByteReader& reader) {
 
 TraceStats read_stats(ByteReader& reader) {
     TraceStats s;
-    for (std::uint64_t* count :
-         {&s.paths, &s.nonzero_paths, &s.rays, &s.shadow_rays, &s.vertices, &s.records, &s.split_path_rays,
-          &s.invalid_samples, &s.splitting.split_mean, &s.splitting.unsplit_mean, &s.splitting.split_variance,
-          &s.splitting.unsplit_variance, &s.light_subpaths.samples, &s.light_subpaths.both_mean,
-          &s.light_subpaths.alone_mean, &s.light_subpaths.both_variance, &s.light_subpaths.alone_variance,
-          &s.light_subpaths.alone_rays})
+    for (std::uint64_t* count : {&s.paths, &s.nonzero_paths, &s.rays, &s.shadow_rays, &s.vertices, &s.records,
+                                 &s.split_path_rays, &s.invalid_samples})
         *count = reader.get_varint();
-    for (std::uint64_t& sum : s.next_event)
-        sum = reader.get_varint();
-    for (auto* moments : {&s.unguided.guided, &s.unguided.unguided})
-        for (std::uint64_t& moment : *moments)
-            moment = reader.get_varint();
-    s.unguided.cost = reader.get_varint();
     s.trace_seconds = reader.get<double>();
     s.splat_seconds = reader.get<double>();
     for (double& seconds : s.phase_seconds)
         seconds = reader.get<double>();
     s.busy_seconds = reader.get<double>();
-    const std::size_t emitters = reader.get_count(2);
-    for (std::size_t i = 0; i < emitters; ++i) {
-        s.emission.paths.push_back(reader.get_varint());
-        s.emission.squares.push_back(reader.get_varint());
-    }
     const std::size_t invalid = reader.get_count(kInvalidSampleBytes);
     for (std::size_t i = 0; i < invalid; ++i) {
         InvalidSample sample;
@@ -182,9 +153,9 @@ TraceStats read_stats(ByteReader& reader) {
 
 /// Upper bound of a result's size in bytes.
 std::size_t size_bound(const Result& result) {
-    constexpr std::size_t kMostVarint = 10, kMostStats = 2048;
+    constexpr std::size_t kMostVarint = 10, kMostStats = 1024;
     std::size_t bytes = kMostStats + kInvalidSampleBytes * result.stats.first_invalid.size() +
-                        kTailSampleBytes * result.stats.tails.worst.size() + result.update.size() +
+                        kTailSampleBytes * result.stats.tails.worst.size() + result.evidence.size() +
                         result.splats.size();
     for (const UnitResult& unit : result.units)
         bytes += kMostUnitBytes + 2 * sizeof(std::uint32_t) + 2 + 3 * kMostVarint +
@@ -239,7 +210,7 @@ void write_result(ByteWriter& writer, const Result& result) {
     writer.put_varint(result.units.size());
     for (const UnitResult& unit : result.units)
         write_unit_result(writer, unit);
-    writer.put_array(std::span(result.update));
+    writer.put_array(std::span(result.evidence));
     writer.put_array(std::span(result.splats));
 }
 
@@ -252,7 +223,7 @@ Result read_result(ByteReader& reader) {
     result.units.reserve(count);
     for (std::size_t i = 0; i < count; ++i)
         result.units.push_back(read_unit_result(reader, result.pass));
-    result.update = reader.get_array<std::uint8_t>();
+    result.evidence = reader.get_array<std::uint8_t>();
     result.splats = reader.get_array<std::uint8_t>();
     return result;
 }

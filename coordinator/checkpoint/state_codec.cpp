@@ -99,7 +99,6 @@ void serialize(Archive& a, TailSample& s) {
 template <class Archive>
 void serialize(Archive& a, TraceStats& s) {
     a(s.paths, s.nonzero_paths, s.rays, s.shadow_rays, s.vertices, s.records, s.split_path_rays, s.invalid_samples,
-      s.next_event, s.unguided.guided, s.unguided.unguided, s.unguided.cost, s.splitting, s.light_subpaths, s.emission,
       s.first_invalid, s.tails.worst, s.trace_seconds, s.splat_seconds, s.phase_seconds);
 }
 
@@ -170,11 +169,12 @@ constexpr std::uint32_t kOrigin = section_tag("IDNT"), kHistory = section_tag("F
                         kAovs = section_tag("AOVS"), kModel = section_tag("MODL"), kLearner = section_tag("LERN"),
                         kReports = section_tag("RPRT"), kPartial = section_tag("OPEN"),
                         kPartialFilm = section_tag("PFLM"), kPartialAovs = section_tag("PAOV"),
-                        kPartialSplats = section_tag("PSPL"), kPartialSums = section_tag("PSUM");
+                        kPartialSplats = section_tag("PSPL"), kPartialEvidence = section_tag("PEVI");
 
 constexpr std::uint32_t version_of(std::uint32_t tag) {
-    if (tag == kHistory || tag == kReports) return 6;
-    return tag == kPartial ? 5 : tag == kLearner ? 3 : 1;
+    if (tag == kReports) return 7;
+    if (tag == kHistory || tag == kPartial) return 6;
+    return tag == kLearner ? 3 : 1;
 }
 
 /// `room`: capacity to reserve in bytes, for large sections.
@@ -249,7 +249,7 @@ std::array<std::pair<std::uint32_t, Bytes PartialPass::*>, 4> partial_layers() {
     return {{{kPartialFilm, &PartialPass::film},
              {kPartialAovs, &PartialPass::aovs},
              {kPartialSplats, &PartialPass::splats},
-             {kPartialSums, &PartialPass::sums}}};
+             {kPartialEvidence, &PartialPass::evidence}}};
 }
 
 }  // namespace

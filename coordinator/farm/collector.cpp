@@ -7,7 +7,6 @@
 #include "common/base/timer.h"
 #include "common/film/radiance_limit.h"
 #include "common/math/saturating.h"
-#include "common/plan/schedule/learning.h"
 
 namespace treefarm {
 
@@ -30,7 +29,7 @@ Collector::Collector(const PassPlan& plan, const AnyModel& model, int width, int
       film_(plan.layers.estimates ? width : 0, plan.layers.estimates ? height : 0, plan.chunks),
       aovs_(aovs, width, height, plan.chunks),
       splats_(plan.layers.splats),
-      sums_(plan.record ? CellSums(plan.index, sums_shape(plan, model)) : CellSums()) {}
+      evidence_(no_evidence(plan, model)) {}
 
 std::uint32_t Collector::unit_samples(const WorkUnit& unit) const {
     const std::uint64_t per_unit = std::uint64_t{kBlockSamples} * plan_.blocks_per_unit;
@@ -61,16 +60,9 @@ void Collector::check_stats(const Result& result) const {
         paths += weight(unit.unit) * (unit.unit.kind == UnitKind::tile ? unit_samples(unit.unit) : 1);
     if (s.paths != paths || s.nonzero_paths > paths || s.invalid_samples > paths)
         throw FormatError("counts of paths that do not fit the work units");
-    for (const std::uint64_t count :
-         {s.rays, s.shadow_rays, s.vertices, s.records, s.light_subpaths.samples, s.light_subpaths.alone_rays})
+    for (const std::uint64_t count : {s.rays, s.shadow_rays, s.vertices, s.records})
         if (count > kMostClaim) throw FormatError("a count that is too large");
     if (s.split_path_rays > s.rays) throw FormatError("more rays of split paths than rays");
-    std::uint64_t light_paths = 0;
-    for (std::size_t i = 0; i < s.emission.paths.size(); ++i) {
-        light_paths += std::min(s.emission.paths[i], paths + 1);
-        if (light_paths > paths || s.emission.squares[i] > kMostSplatSum)
-            throw FormatError("light paths that do not fit the work units");
-    }
     if (!is_duration(s.trace_seconds) || !is_duration(s.splat_seconds) || !is_duration(s.busy_seconds) ||
         !std::all_of(s.phase_seconds.begin(), s.phase_seconds.end(), is_duration))
         throw FormatError("an impossible number of seconds");
@@ -115,11 +107,12 @@ Verdict Collector::take(int worker, Result result, Ledger& ledger) {
     }
     // merge_encoded checks everything before it adds anything: a result counts as a whole or not at all.
     Timer timer;
-    if (plan_.record) touched_cells_ += sums_.merge_encoded(result.update);
+    const std::vector<std::uint64_t> entries = evidence_.merge_encoded(result.evidence);
+    if (plan_.record) touched_cells_ += entries[kGuideEvidence];
     merge_seconds_ += timer.seconds();
     timer.restart();
     ledger.accept(worker, units);
-    update_bytes_ += result.update.size();
+    update_bytes_ += result.evidence.size();
     splat_bytes_ += result.splats.size();
     WorkerContribution& contribution = contributions_[worker];
     for (const UnitResult& unit : result.units) {
@@ -142,7 +135,7 @@ void Collector::fill(PartialPass& partial) const {
     if (plan_.layers.estimates) partial.film = film_.encode(done_);
     partial.aovs = aovs_.encode(done_);
     if (plan_.layers.splats.pixels > 0) partial.splats = splats_.encode();
-    if (plan_.record) partial.sums = sums_.encode();
+    partial.evidence = evidence_.encode();
     partial.stats = totals();
     partial.update_bytes = update_bytes_;
     partial.splat_bytes = splat_bytes_;
@@ -153,12 +146,12 @@ void Collector::restore(const PartialPass& partial) {
     const auto pixels = static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
     if (!(partial.plan == plan_) || !has_possible_units(partial, pixels)) throw FormatError("units of another pass");
     if (partial.film.empty() != (partial.done.estimate_count() == 0 || !plan_.layers.estimates) ||
-        partial.splats.empty() != (plan_.layers.splats.pixels == 0) || partial.sums.empty() == plan_.record)
+        partial.splats.empty() != (plan_.layers.splats.pixels == 0))
         throw FormatError("layers that differ from the pass's");
     if (plan_.layers.estimates) film_.restore(partial.done, partial.film);
     aovs_.restore(partial.done, partial.aovs);
     if (!partial.splats.empty()) splats_.merge_encoded(partial.splats);
-    if (plan_.record) sums_.merge_encoded(partial.sums);
+    evidence_.merge_encoded(partial.evidence);
     done_ = partial.done;
     earlier_ = partial.stats;
     update_bytes_ = partial.update_bytes;

@@ -9,7 +9,7 @@
 #include "common/film/pass_film.h"
 #include "common/film/splat_film.h"
 #include "common/guiding/any_guide.h"
-#include "common/guiding/statistics/cell_sums.h"
+#include "common/plan/schedule/learning.h"
 #include "common/protocol/messages.h"
 #include "coordinator/farm/ledger.h"
 #include "coordinator/farm/partial_pass.h"
@@ -22,7 +22,7 @@ struct WorkerContribution {
     std::uint64_t work = 0;  ///< sum of the accepted units' weights
 };
 
-/// Collector of the results of one pass: the layers of its film, tree sums and figures, each unit exactly once.
+/// Collector of the results of one pass: the layers of its film, its evidence and figures, each unit exactly once.
 class Collector {
   public:
     /// `signed_pixels`: the filter has negative lobes, so that means may be negative.
@@ -44,13 +44,14 @@ class Collector {
     std::vector<PixelEstimate> take_pixels();  ///< once, of a complete pass: sum of all layers
     const SplatSums& splats() const { return splats_; }
     AovPixels take_aovs() { return aovs_.take(); }  ///< as take_pixels()
-    const CellSums& sums() const { return sums_; }
+    const Evidence& evidence() const { return evidence_; }
+    Blocks take_evidence(EvidenceOwner owner) { return evidence_.take(owner); }  ///< once, of a complete pass
     TraceStats totals() const;
     const std::map<int, WorkerContribution>& contributions() const { return contributions_; }
     std::uint64_t update_bytes() const { return update_bytes_; }
     std::uint64_t splat_bytes() const { return splat_bytes_; }
     std::uint64_t touched_cells() const { return touched_cells_; }
-    double merge_seconds() const { return merge_seconds_; }  ///< seconds spent adding tree updates
+    double merge_seconds() const { return merge_seconds_; }  ///< seconds spent adding evidence
     double film_seconds() const { return film_seconds_; }    ///< seconds spent adding pixels
 
   private:
@@ -69,11 +70,11 @@ class Collector {
     PassFilm film_;
     AovFilm aovs_;
     SplatSums splats_;
-    CellSums sums_;
+    Evidence evidence_;
     std::map<int, WorkerContribution> contributions_;
-    std::uint64_t update_bytes_ = 0;   ///< total of the encoded tree updates
+    std::uint64_t update_bytes_ = 0;   ///< total of the encoded evidence
     std::uint64_t splat_bytes_ = 0;    ///< total of the encoded splats
-    std::uint64_t touched_cells_ = 0;  ///< sum over the tree updates of the cells that each touches
+    std::uint64_t touched_cells_ = 0;  ///< sum over the results of the entries in the guide's first block
     double merge_seconds_ = 0, film_seconds_ = 0;
 };
 

@@ -87,7 +87,9 @@ class Farm {
     bool pass_complete() const { return ledger_ && ledger_->complete(); }
     const Collector& collector() const { return *collector_; }
     std::vector<PixelEstimate> take_pixels() { return collector_->take_pixels(); }  ///< of the complete pass, once
-    AovPixels take_aovs() { return collector_->take_aovs(); }                       ///< of the complete pass, once
+    /// Evidence of the complete pass, once per owner.
+    Blocks take_evidence(EvidenceOwner owner) { return collector_->take_evidence(owner); }
+    AovPixels take_aovs() { return collector_->take_aovs(); }  ///< of the complete pass, once
     const Ledger& ledger() const { return *ledger_; }
     /// Seconds from begin_pass() until the last present worker requested units.
     double broadcast_seconds() const { return broadcast_seconds_; }

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "common/base/bytes.h"
-#include "common/decide/trace_stats.h"
 #include "common/film/done_work.h"
+#include "common/film/trace_stats.h"
 #include "common/plan/forecast/forecast.h"
 #include "common/plan/schedule/schedule.h"
 #include "coordinator/farm/ledger.h"
@@ -19,7 +19,8 @@ struct PartialPass {
     PassPlan plan;
     BudgetMemory memory;  ///< NextPass::memory
     DoneWork done;
-    Bytes film, aovs, splats, sums;  ///< each encoded by its layer's codec; empty if the pass lacks the layer
+    Bytes film, aovs, splats;  ///< each encoded by its layer's codec; empty if the pass lacks the layer
+    Bytes evidence;            ///< Evidence::encode()
     TraceStats stats;
     std::uint64_t update_bytes = 0, splat_bytes = 0, touched_cells = 0;
     std::vector<PoisonUnit> poison_units;

@@ -168,10 +168,11 @@ class PassLoop {
         combine_films(state_, job_, developed);
         report.seconds.film = timer.seconds();
         timer.restart();
-        fill_from_collector(report, farm_.collector());
+        fill_from_collector(report, farm_.collector(), state_.tree);
         describe_image(state_, job_, developed, report.variance);
         state_.history.error = report.error = developed.error;
-        judge(state_, job_, *developed.image, static_cast<std::size_t>(result_.width), report);
+        judge(state_, job_, *developed.image, static_cast<std::size_t>(result_.width),
+              Decisions::evidence(farm_.collector().evidence().of(kDecisionsEvidence)), report);
         report.seconds.error = timer.seconds();
     }
 
@@ -208,7 +209,7 @@ class PassLoop {
             ended_with_ = state_.tree;
         }
         const Timer timer;
-        learn(state_, job_, plan, next.pass, farm_.collector().sums(), report);
+        learn(state_, job_, plan, next.pass, farm_.take_evidence(kGuideEvidence), report);
         report.seconds.refine = timer.seconds();
     }
 

@@ -21,10 +21,7 @@ TreeFigures tree_figures(const AnyModel& model, std::uint64_t encoded_bytes) {
 }
 
 double PassReport::next_event_samples() const {
-    if (!plan.next_event) return 0.0;
-    const NextEventSums& sums = stats.next_event;
-    if (sums[kNextEventAsked] == 0) return 1.0;
-    return static_cast<double>(sums[kNextEventDrawn]) / static_cast<double>(sums[kNextEventAsked]);
+    return plan.next_event ? decisions.get<NextEventDecision::Figures>().samples : 0.0;
 }
 
 double PassReport::nonzero_share() const {
@@ -48,11 +45,11 @@ double PassReport::efficiency() const {
     return product > 0 ? 1 / product : 0.0;
 }
 
-void fill_from_collector(PassReport& report, const Collector& collector) {
+void fill_from_collector(PassReport& report, const Collector& collector, const AnyModel& model) {
     report.stats = collector.totals();
     report.update_bytes = collector.update_bytes();
     report.touched_cells = collector.touched_cells();
-    report.caps = collector.sums().caps();
+    if (report.plan.record) report.caps = model.caps(collector.evidence().of(kGuideEvidence));
     report.splat_caps = collector.splats().caps();
     report.splat_bytes = collector.splat_bytes();
     report.saturated_splats = collector.splats().saturated();

@@ -86,8 +86,8 @@ struct PassReport {
     double rays_per_second() const;
 };
 
-/// Fills in the figures of a pass from its collected results, without its variance.
-void fill_from_collector(PassReport& report, const Collector& collector);
+/// Fills in the figures of a pass over `model` from its collected results, without its variance.
+void fill_from_collector(PassReport& report, const Collector& collector, const AnyModel& model);
 
 /// Computes seconds.idle from seconds.all and the other figures.
 void count_idle(PassReport& report);

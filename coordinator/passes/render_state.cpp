@@ -95,21 +95,21 @@ void require_finite(const CombinedImage& image, const ErrorEstimate& error) {
             "run directory");
 }
 
-void judge(RenderState& state, const Resolved& job, const CombinedImage& image, std::size_t width, PassReport& report) {
+void judge(RenderState& state, const Resolved& job, const CombinedImage& image, std::size_t width,
+           const Decisions::Evidence& sums, PassReport& report) {
     JudgedPass pass{.plan = report.plan, .counts = report.stats, .rules = decision_rules(job)};
     pass.pixels = state.films.back().pixels;
     pass.width = width;
     pass.told = levels_of(state.tree.regions(), pass.pixels.size(), width);
     if (pass.measures_noise()) pass.levels = image_levels(image.mean, width);
-    Decisions::judge(pass, report.stats, state.history.decisions, report.decisions);
-    report.stats.emission = {};  // large, and summed in the memory
+    Decisions::judge(pass, sums, state.history.decisions, report.decisions);
     if (pass.measures_noise())
         state.tree.set_image({static_cast<std::uint32_t>(pass.levels.columns), std::move(pass.levels.inverse_levels),
                               state.history.decisions.get<NextEventDecision::Memory>().code});
 }
 
 void learn(RenderState& state, const Resolved& job, const PassPlan& pass, const std::optional<PassPlan>& coming,
-           const CellSums& sums, PassReport& report) {
+           Blocks sums, PassReport& report) {
     if (!pass.record) return;
     const std::uint32_t done = pass.first_sample + pass.spp;
     const PassPlan next = coming ? *coming : make_pass(job, pass.index + 1, done, pass.spp, false);
@@ -117,7 +117,7 @@ void learn(RenderState& state, const Resolved& job, const PassPlan& pass, const 
     RefineSettings settings = refine_settings(job, pass, next);
     settings.next_event = next_event.price;
     ImageFacts image = state.tree.regions().image;
-    state.tree = state.learner.learn(state.tree, sums, settings, pass.learn_mixture, report.refine);
+    state.tree = state.learner.learn(state.tree, std::move(sums), settings, pass.learn_mixture, report.refine);
     state.tree.set_image(std::move(image));
     state.last_tree = next.last_tree;
     next_event.verdict = report.refine.next_event;

@@ -67,10 +67,11 @@ void require_finite(const CombinedImage& image, const ErrorEstimate& error);
 void describe_image(const RenderState& state, const Resolved& job, DevelopedState& developed, PassVariance& last_pass);
 /// Judges the pass by its sums and the combined image (common/decide/decisions.h). Sets the verdicts of the report, and
 /// the facts that the model carries about the image.
-void judge(RenderState& state, const Resolved& job, const CombinedImage& image, std::size_t width, PassReport& report);
-/// Builds the tree of the coming pass from the pass's records. Without a coming pass it is built as if passes continued
-/// to double: a resume of an ended render needs it.
+void judge(RenderState& state, const Resolved& job, const CombinedImage& image, std::size_t width,
+           const Decisions::Evidence& sums, PassReport& report);
+/// Builds the tree of the coming pass from the evidence of the pass's records. Without a coming pass it is built as if
+/// passes continued to double: a resume of an ended render needs it.
 void learn(RenderState& state, const Resolved& job, const PassPlan& pass, const std::optional<PassPlan>& coming,
-           const CellSums& sums, PassReport& report);
+           Blocks sums, PassReport& report);
 
 }  // namespace treefarm

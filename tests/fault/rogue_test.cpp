@@ -25,16 +25,43 @@ Moments& moments(Result& r) {
     return r.units.back().pixels.back().half[0];
 }
 
-/// Replaces a number of an encoded tree update: numbers 5 to 7 are its caps, 10 is its first count of records.
-void change_varint(Bytes& update, int number) {
-    ByteReader in(update);
+/// Replaces a number of encoded evidence, which consists of varints.
+void change_varint(Bytes& evidence, int number) {
+    ByteReader in(evidence);
     ByteWriter out;
     for (int k = 0; k < number; ++k)
         out.put_varint(in.get_varint());
     in.get_varint();
     out.put_varint(~std::uint64_t{0});
     out.put_bytes(in.get_bytes(in.remaining()));
-    update = out.take();
+    evidence = out.take();
+}
+
+/// Index of the first number of recorded vertices in evidence of decisions that counted nothing.
+int first_vertices(const Bytes& evidence) {
+    ByteReader in(evidence);
+    int numbers = 0;
+    const auto next = [&] {
+        ++numbers;
+        return in.get_varint();
+    };
+    const auto skip_block = [&] {
+        next();  // rows
+        for (std::uint64_t entries = next(); entries > 0; --entries) {
+            next();
+            next();
+        }
+    };
+    next();  // pass
+    next();  // saturated
+    for (std::size_t decision = 0; decision < std::tuple_size_v<decltype(Decisions::Evidence::all)>; ++decision)
+        skip_block();
+    next();
+    skip_block();  // cells
+    next();
+    next();
+    next();
+    return numbers;
 }
 
 class ResultThatCannotBe : public FarmTest, public ::testing::WithParamInterface<BadResult> {};
@@ -118,8 +145,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadResult{"more seconds than have passed", [](Result& r) { r.stats.trace_seconds = 1e6; }},
         BadResult{"busy for longer than has passed", [](Result& r) { r.stats.busy_seconds = 1e9; }},
         BadResult{"more seconds of a phase than have passed", [](Result& r) { r.stats.phase_seconds[1] = 1e6; }},
-        BadResult{"more capped records than anybody makes", [](Result& r) { change_varint(r.update, 5); }},
-        BadResult{"more records of a region than anybody makes", [](Result& r) { change_varint(r.update, 10); }},
+        BadResult{"evidence of another pass", [](Result& r) { change_varint(r.evidence, 0); }},
+        BadResult{"more saturated sums than there are", [](Result& r) { change_varint(r.evidence, 1); }},
+        BadResult{"evidence that is cut short", [](Result& r) { r.evidence.pop_back(); }},
+        BadResult{"more records of a region than anybody makes",
+                  [](Result& r) { change_varint(r.evidence, first_vertices(r.evidence)); }},
         BadResult{"work of another pass", [](Result& r) { r.pass += 1; }}),
     [](const auto& info) { return "Lie" + std::to_string(info.index); });
 

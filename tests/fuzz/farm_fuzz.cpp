@@ -158,7 +158,7 @@ Outcome run(std::span<const std::uint8_t> input) {
         require(farm.pass_complete(), "the pass did not end");
         const std::vector<PixelEstimate> pixels = farm.take_pixels();
         outcome.pixels.insert(outcome.pixels.end(), pixels.begin(), pixels.end());
-        outcome.sums.push_back(farm.collector().sums().encode());
+        outcome.sums.push_back(farm.collector().evidence().encode());
     }
     require(channel.bytes_sent() < 8 * kScene.size() + 1000 * (messages + 100), "what goes out has no bound");
     return outcome;

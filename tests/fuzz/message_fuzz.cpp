@@ -44,7 +44,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 std::vector<std::string> fuzz::seeds() {
     Result result;
     result.pass = 3;
-    result.update = {1, 2, 3};
+    result.evidence = {1, 2, 3};
     result.stats.first_invalid.push_back({3, 1, 2, 5, {0, 1, 2}});
     result.stats.tails.add({2.5f, 3, 1, 0, 5, {LightFound::sampled, PathClass::mirror, 4}});
     result.units.push_back({{3, 0, 0, 2, 1, 0}, std::vector<PixelEstimate>(2), {}});

@@ -88,11 +88,10 @@ Result any_result(Script& script, const Known& known) {
         result.units.push_back(std::move(unit));
     }
     for (std::uint32_t length = script.below(40); length > 0; --length)
-        result.update.push_back(script.byte());
+        result.evidence.push_back(script.byte());
     if (script.one_in(2)) result.splats = any_splats(script, known);
     TraceStats& s = result.stats;
-    for (std::uint64_t* counter :
-         {&s.nonzero_paths, &s.rays, &s.records, &s.next_event[0], &s.unguided.cost, &s.invalid_samples})
+    for (std::uint64_t* counter : {&s.nonzero_paths, &s.rays, &s.records, &s.invalid_samples})
         *counter = script.number();
     s.trace_seconds = any_value(script);
     s.busy_seconds = any_value(script);

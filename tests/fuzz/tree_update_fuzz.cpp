@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <cstdlib>
 
+#include "common/evidence/evidence.h"
 #include "common/guiding/regions/light_probabilities.h"
 #include "common/guiding/statistics/cell_accumulator.h"
 #include "tests/fuzz/fuzz.h"
@@ -36,6 +38,35 @@ void merge(std::span<const std::uint8_t> bytes) {
     }
 }
 
+/// Blocks of each kind, into which something was merged before.
+Evidence some_evidence(std::uint32_t first) {
+    constexpr std::array<BlockShape, 5> kShapes = {{{"sums", "", BlockKind::sums, 9, 2, 1u << 20},
+                                                    {"signed", "", BlockKind::signed_sums, 9, 2, kMostSigned},
+                                                    {"growing", "", BlockKind::sums, kGrowingRows, 2},
+                                                    {"chosen", "", BlockKind::chosen, 4, 2},
+                                                    {"owned", "", BlockKind::owned, 50, 2}}};
+    Blocks blocks(kShapes, 1);
+    blocks.sums(0).add(first, 7);
+    blocks.sums(1).add_signed(first, -7);
+    blocks.sums(2).grow(first + 1);
+    for (std::uint32_t i = first; i < first + 6; ++i) {
+        blocks.chosen(0).offer(i, std::array<std::uint32_t, 2>{i, 3});
+        blocks.owned(0).set(i, std::array<std::uint64_t, 2>{i, 3});
+    }
+    return {1, {std::move(blocks)}};
+}
+
+void merge_blocks(std::span<const std::uint8_t> bytes) {
+    const Evidence before = some_evidence(0);
+    Evidence evidence = before;
+    try {
+        evidence.merge_encoded(bytes);
+        if (evidence.encode().empty()) std::abort();
+    } catch (const FormatError&) {
+        if (evidence != before) std::abort();  // bad evidence changes nothing
+    }
+}
+
 void decode(std::span<const std::uint8_t> bytes) {
     try {
         const SdTree tree = decode_tree(bytes);
@@ -57,12 +88,13 @@ void decode(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-/// 'u': an update of a certain tree follows; 't': a tree.
+/// 'u': an update of a certain tree follows; 't': a tree; 'b': evidence of certain blocks.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size == 0) return 0;
     const std::span<const std::uint8_t> rest(data + 1, size - 1);
     if (data[0] == 'u') merge(rest);
     if (data[0] == 't') decode(rest);
+    if (data[0] == 'b') merge_blocks(rest);
     return 0;
 }
 
@@ -79,6 +111,7 @@ std::vector<std::string> fuzz::seeds() {
         accumulator.commit(records, counts, {1, 2, 3});
         return accumulator.take().encode();
     };
-    return {text('u', update(20)), text('u', empty_sums().encode()), text('t', encode_tree(small_tree())),
+    return {text('b', some_evidence(6).encode()), text('u', update(20)), text('u', empty_sums().encode()),
+            text('t', encode_tree(small_tree())),
             text('t', encode_tree(initial_tree(Box3(Vec3(-1.0f), Vec3(1.0f)), 1.0f)))};
 }

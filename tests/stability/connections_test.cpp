@@ -83,7 +83,7 @@ class OneByOne {
     /// The most that a sample brings to its own pixel or by splats.
     double brought(std::uint32_t number) {
         const PassPlan pass = make_pass(job_, 0, number, 1, true);
-        output_.begin(0, pass.layers.splats);
+        output_.begin(guide_, pass.layers.splats);
         render_(pass, guide_, {0, 0, 0, 1, 1, 0}, output_);
         double most = output_.pixels.at(0).whole().mean.x;
         for (const SplatLog::Entry& splat : output_.splats.summed())

@@ -27,7 +27,7 @@ TEST(Pixels, OneBadSampleDoesNotPoison) {
     const WorkUnit unit{3, 0, 0, 1, 1, 0};
     for (const float bad : {test::kNan, test::kInfinity, -test::kInfinity, -1e-30f})
         for (int channel = 0; channel < 3; ++channel) {
-            TraceStats stats;
+            UnitStats stats;
             PixelEstimate pixel;
             for (std::uint32_t sample = 0; sample < 64; ++sample) {
                 Rgb value(1.0f);

@@ -37,7 +37,7 @@ std::vector<PixelEstimate> render(const Scene& scene, const Job& job, std::uint3
     pass.blocks_per_unit = 64;
     std::vector<PixelEstimate> pixels;
     RecordLog log;
-    TraceStats stats;
+    UnitStats stats;
     test::render_unit(
         trace, job, pass, guide,
         {0, 0, 0, static_cast<std::uint16_t>(scene.film.width), static_cast<std::uint16_t>(scene.film.height), 0},

@@ -233,7 +233,7 @@ test::Rendered render_beside(const Scene& scene, const Job& job, std::span<const
         pass.next_event = job.integrator.next_event == NextEvent::always;
         RecordLog log;
         log.begin(guide.distribution_count());
-        TraceStats stats;
+        UnitStats stats;
         using Kernel = PathKernel<Walk, Surface, true, true>;
         const auto kernel =
             std::make_unique<Kernel>(trace, guide, PathSettings(trace, resolved, pass, guide), stats, &log);

@@ -104,10 +104,11 @@ TEST(LightSubpaths, AreGivenUpWhereTheyDoNotPay) {
     EXPECT_TRUE(run.plans.front().light_subpaths);
     EXPECT_FALSE(run.plans.back().light_subpaths);
     EXPECT_EQ(run.plans.back().layers.splats.pixels, 0u);
-    EXPECT_GT(light_subpath_gain(run.stats[2].light_subpaths, run.stats[2]).noise, 0);
-    EXPECT_LT(light_subpath_gain(run.stats[2].light_subpaths, run.stats[2]).at_equal_cost(), 0.9);
-    EXPECT_NEAR(light_subpath_gain(run.stats[2].light_subpaths, run.stats[2]).mean_ratio, 1, 0.05);
-    EXPECT_EQ(light_subpath_gain(run.stats.back().light_subpaths, run.stats.back()).noise, 0) << "nothing to compare";
+    EXPECT_GT(light_subpath_gain(run.stats[2].sums<LightSubpathSums>(), run.stats[2]).noise, 0);
+    EXPECT_LT(light_subpath_gain(run.stats[2].sums<LightSubpathSums>(), run.stats[2]).at_equal_cost(), 0.9);
+    EXPECT_NEAR(light_subpath_gain(run.stats[2].sums<LightSubpathSums>(), run.stats[2]).mean_ratio, 1, 0.05);
+    EXPECT_EQ(light_subpath_gain(run.stats.back().sums<LightSubpathSums>(), run.stats.back()).noise, 0)
+        << "nothing to compare";
     const Rendered path = test::rendered(render_both_ends(scene, "reference", 60, LightSelection::tree), scene.film);
     expect_same_image(test::rendered(run, scene.film), path, "open sky", 0.02);
 }
@@ -120,7 +121,7 @@ TEST(LightSubpaths, PathsAloneAreThoseOfPathTracing) {
                           render_both_ends(scene, "bidirectional", 60, LightSelection::tree, true, Rule::while_it_pays),
                       path = render_both_ends(scene, "reference", 60, LightSelection::tree);
     ASSERT_TRUE(both.plans[2].light_subpaths);
-    const LightSubpathGain gain = light_subpath_gain(both.stats[2].light_subpaths, both.stats[2]);
+    const LightSubpathGain gain = light_subpath_gain(both.stats[2].sums<LightSubpathSums>(), both.stats[2]);
     const double shown =
         pass_variance(path.passes[2].pixels).mse_of_sample / pass_variance(both.passes[2].pixels).mse_of_sample;
     EXPECT_NEAR(gain.noise / shown, 1, 0.15);
@@ -140,8 +141,8 @@ TEST_P(Caustics, KeepLightSubpathsWhereCameraPathsHaveMetNoneYet) {
         const LocalRender run =
             render_both_ends(scene, "bidirectional", spp, LightSelection::learned, true, Rule::while_it_pays);
         kept += run.plans.back().light_subpaths;
-        const LightSubpathSums& sums = run.stats[2].light_subpaths;
-        LightSubpathGain seen = light_subpath_gain(run.stats[2].light_subpaths, run.stats[2]);
+        const LightSubpathSums& sums = run.stats[2].sums<LightSubpathSums>();
+        LightSubpathGain seen = light_subpath_gain(run.stats[2].sums<LightSubpathSums>(), run.stats[2]);
         seen.noise = static_cast<double>(sums.alone_variance) / static_cast<double>(sums.both_variance);
         looked_quiet += seen.at_equal_cost() < 0.9;
     }

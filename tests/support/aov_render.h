@@ -26,7 +26,7 @@ inline PassPlan one_pass(std::uint32_t spp) {
 struct Layers {
     std::vector<AovChannel> channels;
     std::vector<PixelEstimate> pixels, direct;
-    TraceStats stats;
+    UnitStats stats;
 
     const std::vector<float>& operator[](const std::string& name) const {
         for (const AovChannel& channel : channels)
@@ -63,7 +63,7 @@ inline Layers render_layers(const Scene& scene, const std::string& aovs, const s
         UnitOutput output;
         result.stats = {};
         for (const WorkUnit& unit : cut_pass(pass, width, height, width)) {
-            output.begin(guide.regions().distribution_count(), pass.layers.splats);
+            output.begin(guide, pass.layers.splats);
             renderer(pass, guide, unit, output);
             if (pass.layers.estimates) film.add(unit, output.pixels);
             splats.add(output.splats.summed(), output.splats.caps());

@@ -15,7 +15,7 @@ inline const std::vector<std::vector<std::string>> kFloors = {
     {"common/base/text", "common/config/effects"},
     {"common/base"},
     {"common/base/files", "common/math"},
-    {"common/image", "common/film", "common/scene/kinds/traits"},
+    {"common/image", "common/film", "common/evidence", "common/scene/kinds/traits"},
     {"common/metrics", "common/decide/pixels", "common/scene/kinds/emitters", "common/scene/kinds/materials",
      "common/scene/kinds/shapes", "common/scene/kinds/textures"},
     {"common/metrics/flip", "common/decide/pass", "common/scene/kinds"},
@@ -61,8 +61,8 @@ inline const std::map<std::string, std::set<std::string>> kSides = {
     {"cli", {"common", "coordinator", "worker", "report", "serve"}}};
 
 /// Folders that are pure, with all below them.
-inline const std::vector<std::string> kPure = {"common/metrics", "common/guiding", "common/film", "common/decide",
-                                               "common/plan"};
+inline const std::vector<std::string> kPure = {"common/metrics",  "common/guiding", "common/film",
+                                               "common/evidence", "common/decide",  "common/plan"};
 
 /// Headers of clocks, threads, files, terminals and unkeyed randomness, and our own headers that include them.
 inline const std::vector<std::string> kImpure = {"chrono",

@@ -68,7 +68,8 @@ inline RenderUnit fake_renderer(std::uint64_t seed, std::uint32_t width) {
     return [seed, width](const PassPlan& pass, const AnySampler& guide, const WorkUnit& unit, UnitOutput& output) {
         if (unit.kind == UnitKind::light_paths) return fake_light_paths(seed, pass, unit, output);
         if (unit.kind == UnitKind::chains) return fake_chains(seed, pass, unit, output);
-        auto& [pixels, log, stats, aovs, splats] = output;
+        auto& [pixels, logs, stats, aovs, splats] = output;
+        RecordLog& log = logs.of<SdTreeGuide>();
         const bool splatting = pass.layers.splats.pixels > 0 && pass.units.light_paths == 0;
         const std::uint32_t run = kBlockSamples * pass.blocks_per_unit;
         const std::uint32_t first = run * unit.chunk, last = std::min(first + run, pass.spp);
@@ -102,7 +103,7 @@ inline Result fake_result(const PassPlan& plan, std::span<const std::uint8_t> tr
     const RenderUnit render = fake_renderer(0, width);
     for (const WorkUnit& unit : units) {
         UnitOutput output;
-        output.begin(work.guide().regions().distribution_count(), plan.layers.splats);
+        output.begin(work.guide(), plan.layers.splats);
         render(plan, work.guide(), unit, output);
         work.deliver(unit, output);
     }

@@ -38,16 +38,15 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
         AnyAccumulator accumulator(pass.index, guide, job.guiding.directional_filter, pass.learn_mixture);
         PassFilm film(scene.film.width, scene.film.height, pass.chunks);
         SplatSums splats(pass.layers.splats);
-        TraceStats stats;
+        UnitStats stats;
         UnitOutput output;
         for (const WorkUnit& unit : cut_pass(pass, scene.film.width, scene.film.height, job.farm.tile_size)) {
-            output.begin(pass.record ? guide.regions().distribution_count() : 0, pass.layers.splats);
+            output.begin(guide, pass.layers.splats);
             render_unit(pass, guide, unit, output);
             if (pass.layers.estimates) film.add(unit, output.pixels);
             splats.add(output.splats.summed(), output.splats.caps());
             stats.add(output.stats);
-            if (pass.record)
-                accumulator.commit(output.log.records, output.log.counts, output.log.caps, output.log.next_event);
+            if (pass.record) accumulator.commit(output.log);
         }
         run.stats.push_back(stats);
         run.splat_caps.add(splats.caps());
@@ -75,7 +74,7 @@ LocalRender render_locally(const Scene& scene, const Job& asked) {
         PassReport report;
         report.plan = pass;
         report.stats = stats;
-        judge(state, job, run.image, static_cast<std::size_t>(scene.film.width), report);
+        judge(state, job, run.image, static_cast<std::size_t>(scene.film.width), stats.decided, report);
         next = choose(history);
         if (pass.record && next.pass) learn(state, job, pass, next.pass, accumulator.take(), report);
         run.plans.push_back(pass);

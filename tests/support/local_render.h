@@ -3,13 +3,13 @@
 
 #include <vector>
 
-#include "common/decide/trace_stats.h"
 #include "common/film/combine.h"
 #include "common/film/splat_film.h"
 #include "common/guiding/any_guide.h"
 #include "common/plan/forecast/budget.h"
 #include "common/scene/model/scene.h"
 #include "coordinator/passes/pass_report.h"
+#include "worker/integrators/unit_stats.h"
 
 namespace treefarm::test {
 
@@ -18,7 +18,7 @@ struct LocalRender {
     std::vector<PassResult> passes;
     std::vector<RenderHistory> states;  ///< after each pass; its clock counts a millisecond per sample
     std::vector<PassPlan> plans;
-    std::vector<TraceStats> stats;
+    std::vector<UnitStats> stats;
     std::vector<PassReport> reports;  ///< with each pass's decisions and their evidence
     SplatCaps splat_caps;             ///< of all passes
     CombinedImage image;

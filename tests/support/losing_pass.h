@@ -15,9 +15,10 @@ inline Decisions::Memories after_losing_pass(const Resolved& job) {
     plan.index = 6;
     plan.spp = plan.first_sample = kSpp;
     plan.record = true;
-    TraceStats stats;
-    stats.paths = kEdge * kEdge * kSpp;
-    stats.rays = 4 * stats.paths;
+    TraceCounts counts;
+    counts.paths = kEdge * kEdge * kSpp;
+    counts.rays = 4 * counts.paths;
+    Decisions::Evidence sums;
     std::vector<PixelEstimate> pixels(kEdge * kEdge);
     for (std::uint32_t p = 0; p < kEdge * kEdge; ++p) {
         UnguidedBlock block;
@@ -26,17 +27,17 @@ inline Decisions::Memories after_losing_pass(const Resolved& job) {
             pixels[p].add(s, Rgb(static_cast<float>(value)));
             block.add(value, 1.16, 4.0);
         }
-        block.finish(pixel_group(p % kEdge, p / kEdge), stats.unguided);
+        block.finish(pixel_group(p % kEdge, p / kEdge), sums.get<UnguidedSums>());
     }
-    stats.splitting = {1000, 1000, 1000, 1000};
-    stats.light_subpaths = {1000, 1000, 1000, 1000, 1000, 1000};
-    JudgedPass pass{.plan = plan, .counts = stats, .rules = decision_rules(job)};
+    sums.get<SplittingSums>() = {1000, 1000, 1000, 1000};
+    sums.get<LightSubpathSums>() = {1000, 1000, 1000, 1000, 1000, 1000};
+    JudgedPass pass{.plan = plan, .counts = counts, .rules = decision_rules(job)};
     pass.pixels = pixels;
     pass.width = kEdge;
     pass.told = pass.levels = image_levels(std::vector<Rgb64>(kEdge * kEdge, Rgb64(1.0)), kEdge);
     Decisions::Memories memories;
     Decisions::Figures figures;
-    Decisions::judge(pass, stats, memories, figures);
+    Decisions::judge(pass, sums, memories, figures);
     return memories;
 }
 

@@ -32,9 +32,11 @@ inline PassPlan with_kernel(const Resolved& job, PassPlan pass, const AnySampler
 }
 
 inline void render_unit(const TraceScene& scene, const Job& job, const PassPlan& pass, const AnySampler& guide,
-                        const WorkUnit& unit, std::vector<PixelEstimate>& pixels, RecordLog& log, TraceStats& stats) {
+                        const WorkUnit& unit, std::vector<PixelEstimate>& pixels, RecordLog& log, UnitStats& stats) {
     const Resolved as_used = resolved(job, scene);
-    treefarm::render_unit(scene, as_used, with_kernel(as_used, pass, guide), guide, unit, pixels, log, stats);
+    AnyLog logs;
+    treefarm::render_unit(scene, as_used, with_kernel(as_used, pass, guide), guide, unit, pixels, logs, stats);
+    with_guide(guide.kind(), [&]<class G>() { log = std::move(logs.of<G>()); });
 }
 
 inline std::string describe_sample(const TraceScene& scene, const Job& job, const PassPlan& pass,

@@ -54,7 +54,7 @@ template <GuideWalk G, class Surface, bool kGuided>
 Rgb observe(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const typename G::Sampler& guide, int x,
             int y, std::uint32_t sample, PathEvents& events) {
     const PathKey path{job.sampler.seed, scene.film().key_of(x, y), pass.first_sample + sample};
-    TraceStats stats;
+    UnitStats stats;
     PathKernel<G, Surface, kGuided, false, EventReporter> kernel(scene, guide, PathSettings(scene, job, pass, guide),
                                                                  stats);
     kernel.observer().events = &events;

@@ -2,11 +2,9 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdint>
 #include <limits>
-#include <vector>
 
-#include "common/guiding/statistics/cell_sums.h"
+#include "common/guiding/statistics/record_log.h"
 #include "common/guiding/statistics/settings.h"
 
 namespace treefarm {
@@ -28,28 +26,12 @@ struct RecordRules {
 
 /// Writes a record at `end`, and returns the new end; a record of 0 does not advance it. Without a branch, since it
 /// would be unpredictable.
-inline Record* append_record(Record record, Record* end) {
+template <class R>
+R* append_record(R record, R* end) {
     record.value = record.value > 0.0f ? record.value : 0.0f;  // also NaN
     record.reflected = record.reflected > 0.0f ? record.reflected : 0.0f;
     *end = record;
     return end + (std::max(record.value, record.reflected) > 0.0f);
 }
-
-/// Records of one work unit, in path order; added to the guide's sums afterwards, outside of the path walk.
-struct RecordLog {
-    LargeTable<Record> records;         ///< records with radiance
-    std::vector<std::uint32_t> counts;  ///< recorded vertices per distribution, those without radiance included
-    UpdateCaps caps;
-    std::vector<NextEventSums> next_event;  ///< per region, if the pass decides on next event
-    std::vector<Record> drafts;             ///< buffer of one path's records, of which only some are kept
-
-    /// Clears the log, keeping its memory. `regions`: number of regions whose direct light is summed.
-    void begin(std::uint32_t distributions, std::uint32_t regions = 0) {
-        records.clear();
-        counts.assign(distributions, 0);
-        caps = {};
-        next_event.assign(regions, {});
-    }
-};
 
 }  // namespace treefarm

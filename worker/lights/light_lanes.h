@@ -119,7 +119,8 @@ inline constexpr float kLeastLight = 1e-29f, kMostLight = 1e30f;
     return select(light >= 0.0f, std::min(light, kMostLight), 0.0f);
 }
 
-inline void LightLanes::estimate(const Vec3& p, const LightReceiver& receiver, Floats& brings) const {
+[[gnu::always_inline]] inline void LightLanes::estimate(const Vec3& p, const LightReceiver& receiver,
+                                                        Floats& brings) const {
     const Vec3 n = receiver.front;
     for (int k = 0; k < kCount; ++k)
         brings[k] = light_estimate((*this)[k], p.x, p.y, p.z, n.x, n.y, n.z, receiver.one_sided);

@@ -213,7 +213,7 @@ class PointTracer {
     const typename G::Guidance guidance_;
     const MisHeuristic mis_;
     const std::uint64_t seed_;
-    TraceStats stats_;
+    UnitStats stats_;
     Scatterer<Surface> scatterer_;
     using Kernel = PathKernel<NoGuide, Surface, false, false, Unobserved>;
     Kernel kernel_;

@@ -6,17 +6,16 @@
 #include <functional>
 #include <numeric>
 
-#include "common/film/splat_film.h"
+#include "common/math/saturating.h"
 
 namespace treefarm {
 
 void EmissionSums::add(const EmissionSums& other) {
-    if (other.paths.empty()) return;
-    paths.resize(std::max(paths.size(), other.paths.size()));
-    squares.resize(paths.size());
-    for (std::size_t i = 0; i < other.paths.size(); ++i) {
-        paths[i] += other.paths[i];
-        squares[i] = std::min(squares[i] + other.squares[i], kMostSplatSum);
+    resize(std::max(size(), other.size()));
+    for (std::size_t i = 0; i < other.size(); ++i) {
+        add_saturating(paths[i], other.paths[i]);
+        add_saturating(squares[i], other.squares[i]);
+        squares[i] = std::min(squares[i], kMostSplatSum);
     }
 }
 

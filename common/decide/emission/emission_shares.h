@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "common/base/error.h"
+#include "common/evidence/block_shape.h"
+#include "common/film/splat_film.h"
 
 namespace treefarm {
 
@@ -20,6 +22,20 @@ struct EmissionSums {
     /// Squares of the contribution of each path, as if emitters were chosen by power; saturates at kMostSplatSum.
     std::vector<std::uint64_t> squares;
 
+    static constexpr BlockShape kBlock{"emission",   "paths, squared quanta", BlockKind::sums, kGrowingRows, 2,
+                                       kMostSplatSum};
+    template <class Sums, class Visit>
+    static constexpr void each(Sums& sums, Visit visit) {
+        for (std::size_t i = 0; i < sums.size(); ++i) {
+            visit(sums.paths[i]);
+            visit(sums.squares[i]);
+        }
+    }
+    std::size_t size() const { return paths.size(); }
+    void resize(std::size_t emitters) {
+        paths.resize(emitters);
+        squares.resize(emitters);
+    }
     void add(const EmissionSums& other);
 
     template <class Archive>

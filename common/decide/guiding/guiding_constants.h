@@ -10,7 +10,7 @@ inline constexpr const char* kHeld = "bench/log/decisions.md#does-auto-hold-in-s
 
 /// Whether paths are guided ("auto"), judged by what guided samples estimate for unguided ones.
 inline constexpr Constant kGuiding[] = {
-    {"guiding.least_judged_spp", 4, "shorter passes have no say, spp", kAuto},
+    {"guiding.least_judged_spp", 4, "shorter passes are not judged, spp", kAuto},
     {"guiding.ray_cost", 1.4,
      "cost of a guided ray over that of an unguided one, training included; 1.24 to 1.53 by scene", kAuto,
      "0.98, 1.19 (2026-11-28)"},
@@ -26,7 +26,7 @@ inline constexpr Constant kGuiding[] = {
     {"guiding.taking_up", 1.1, "and guided again where it is above this", kDecisions, "1.00, 1.00 (2026-11-28)"},
     {"guiding.least_settled_spp", 16, "trees of shorter passes still get much better, spp", kDecisions},
     {"guiding.settled_spp", 64, "from passes of so many spp on giving_up holds", kHeld},
-    {"guiding.least_known", 4.0, "noise that rests on fewer groups of pixels, of 64, has no say", kDecisions},
+    {"guiding.least_known", 4.0, "noise that rests on fewer groups of pixels, of 64, is not judged", kDecisions},
 };
 
 }  // namespace treefarm::policy

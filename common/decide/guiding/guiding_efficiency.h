@@ -7,6 +7,7 @@
 #include <span>
 
 #include "common/decide/pixels/image_levels.h"
+#include "common/evidence/block_shape.h"
 
 namespace treefarm {
 
@@ -20,6 +21,14 @@ struct UnguidedSums {
         unguided{};          ///< second moments of samples, relative to the squared level
     std::uint64_t cost = 0;  ///< of unguided samples, in rays
 
+    static constexpr BlockShape kBlock{"unguided", "kMomentUnit, kCostUnit", BlockKind::sums, 1, 2 * kGroups + 1};
+    template <class Sums, class Visit>
+    static constexpr void each(Sums& sums, Visit visit) {
+        for (auto* const moments : {&sums.guided, &sums.unguided})
+            for (auto& moment : *moments)
+                visit(moment);
+        visit(sums.cost);
+    }
     void add(const UnguidedSums& other);
 };
 

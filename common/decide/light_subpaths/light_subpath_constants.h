@@ -17,7 +17,7 @@ inline constexpr Constant kLightSubpaths[] = {
      kEnds},
     {"light_subpaths.least_found", 0.95, "but not where those find less of the light: nobody knows how noisy they are",
      kEnds},
-    {"light_subpaths.least_spp", 4, "shorter passes have no say, spp", kEnds},
+    {"light_subpaths.least_spp", 4, "shorter passes are not judged, spp", kEnds},
     {"light_subpaths.most_of_mean", 32.0,
      "what a sample brings is compared up to so many times the usual: a firefly that both kinds meet hides what else "
      "differs",

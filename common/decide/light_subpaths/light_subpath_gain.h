@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "common/decide/pass/pass_plan.h"
+#include "common/evidence/block_shape.h"
 #include "common/film/trace_counts.h"
 
 namespace treefarm {
@@ -19,6 +20,16 @@ struct LightSubpathSums {
     std::uint64_t both_variance = 0, alone_variance = 0;  ///< of one sample
     std::uint64_t alone_rays = 0;  ///< rays of samples without light subpaths, shadow rays included
 
+    static constexpr BlockShape kBlock{"light subpaths", "samples, 2^-24 of light, rays", BlockKind::sums, 1, 6};
+    template <class Sums, class Visit>
+    static constexpr void each(Sums& sums, Visit visit) {
+        visit(sums.samples);
+        visit(sums.both_mean);
+        visit(sums.alone_mean);
+        visit(sums.both_variance);
+        visit(sums.alone_variance);
+        visit(sums.alone_rays);
+    }
     void add(const LightSubpathSums& other);
     bool operator==(const LightSubpathSums&) const = default;
 

@@ -6,9 +6,10 @@
 namespace treefarm {
 
 void NextEventDecision::judge(const JudgedPass& pass, const Evidence& sums, Memory& memory, Figures& figures) {
+    const auto asked = static_cast<double>(sums[kNextEventAsked]), drawn = static_cast<double>(sums[kNextEventDrawn]);
+    if (asked > 0) figures.samples = drawn / asked;
     if (!pass.measures_noise()) return;
     const PassPlan& plan = pass.plan;
-    const auto asked = static_cast<double>(sums[kNextEventAsked]), drawn = static_cast<double>(sums[kNextEventDrawn]);
     // Samples along which direct light was counted.
     const std::uint64_t samples =
         multiples_in(plan.first_sample, plan.spp, tuned<policy::kNextEvent, std::uint32_t>("next_event.counted_every"));

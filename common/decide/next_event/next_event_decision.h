@@ -32,10 +32,11 @@ struct NextEventDecision {
     struct Figures {
         NextEventPrice price;  ///< of a pass just finished; not archived
         NextEventVerdict verdict;
+        double samples = 1;  ///< light samples per vertex at which emitters may be sampled
 
         template <class Archive>
         void serialize(Archive& archive) {
-            archive(verdict.saved, verdict.low);
+            archive(verdict.saved, verdict.low, samples);
         }
     };
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "common/evidence/block_shape.h"
 #include "common/math/saturating.h"
 
 namespace treefarm {
@@ -39,7 +40,18 @@ enum NextEventSum : std::size_t {
     kNextEventSpread = kNextEventMoments + kNextEventSamples.size(),  ///< squares of the last moment minus the first
     kNextEventSums,
 };
-using NextEventSums = std::array<std::uint64_t, kNextEventSums>;
+struct NextEventSums : std::array<std::uint64_t, kNextEventSums> {
+    static constexpr BlockShape kBlock{"next event", "vertices, next_event_unit()", BlockKind::sums, 1, kNextEventSums};
+    template <class Sums, class Visit>
+    static constexpr void each(Sums& sums, Visit visit) {
+        for (auto& sum : sums)
+            visit(sum);
+    }
+    void add(const NextEventSums& other) {
+        for (std::size_t i = 0; i < kNextEventSums; ++i)
+            add_saturating((*this)[i], other[i]);
+    }
+};
 
 /// Value of one unit of a sum.
 inline constexpr double next_event_unit(std::size_t sum) {

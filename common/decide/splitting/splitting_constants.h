@@ -15,7 +15,7 @@ inline constexpr Constant kSplitting[] = {
      "of what the first vertex sends to the camera, what each path of a split is expected to carry at least", kSplits,
      "1.00, 0.98 (2026-11-26)"},
     {"splitting.least_quietened", 1.01, "splitting ends where samples are not at least so many times quieter", kSplits},
-    {"splitting.least_found", 0.99, "passes whose unsplit samples find less of the light have no say", kSplits},
+    {"splitting.least_found", 0.99, "passes whose unsplit samples find less of the light are not judged", kSplits},
     {"splitting.least_spp", 16, "nor have shorter ones, spp", kSplits},
     {"splitting.least_gain", 0.97, "it may cost a little more than it shows: whole renders gain more", kSplits},
     {"splitting.least_gain_alone", 0.9, "the same without next event, where they gain most", kSplits},

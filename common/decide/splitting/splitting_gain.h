@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "common/decide/pass/pass_plan.h"
+#include "common/evidence/block_shape.h"
 #include "common/film/trace_counts.h"
 
 namespace treefarm {
@@ -17,12 +18,15 @@ struct SplittingSums {
     std::uint64_t split_mean = 0, unsplit_mean = 0;
     std::uint64_t split_variance = 0, unsplit_variance = 0;  ///< of one sample
 
-    void add(const SplittingSums& other);
-
-    template <class Archive>
-    void serialize(Archive& archive) {
-        archive(split_mean, unsplit_mean, split_variance, unsplit_variance);
+    static constexpr BlockShape kBlock{"splitting", "1/4096 of light", BlockKind::sums, 1, 4};
+    template <class Sums, class Visit>
+    static constexpr void each(Sums& sums, Visit visit) {
+        visit(sums.split_mean);
+        visit(sums.unsplit_mean);
+        visit(sums.split_variance);
+        visit(sums.unsplit_variance);
     }
+    void add(const SplittingSums& other);
 };
 
 /// Samples of a pixel, each of them split and unsplit.

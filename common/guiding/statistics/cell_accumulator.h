@@ -12,6 +12,7 @@
 #include "common/base/prefetch.h"
 #include "common/guiding/statistics/box_filter.h"
 #include "common/guiding/statistics/cell_sums.h"
+#include "common/guiding/statistics/record_log.h"
 #include "common/guiding/statistics/settings.h"
 
 namespace treefarm {
@@ -43,6 +44,10 @@ constexpr bool counts_visits() {
 template <class Sampler>
 class CellAccumulator {
   public:
+    using Log = RecordLog;
+    using Sums = CellSums;
+    using Shape = SumsShape;
+
     /// `with_mixture`: records also feed the histograms of mixture.h.
     CellAccumulator(std::uint32_t pass, const Sampler& guide, DirectionalFilter filter = DirectionalFilter::nearest,
                     bool with_mixture = false)
@@ -53,10 +58,12 @@ class CellAccumulator {
     void commit(std::span<const Record> records, std::span<const std::uint32_t> counts, const UpdateCaps& caps,
                 std::span<const NextEventSums> next_event = {});
 
+    void commit(const Log& log) { commit(log.records, log.counts, log.caps, log.next_event); }
+
     /// Moves the sums out and starts again from zero. Must not run during a commit.
     CellSums take();
-    /// Takes cleared sums back for reuse by the next take(). Must not run during take().
-    void give_back(CellSums cleared);
+    /// Takes the blocks of cleared sums back for reuse by the next take(). Must not run during take().
+    void give_back(Blocks cleared);
 
   private:
     static constexpr std::size_t kStripes = 64;
@@ -230,8 +237,8 @@ CellSums CellAccumulator<Sampler>::take() {
 }
 
 template <class Sampler>
-void CellAccumulator<Sampler>::give_back(CellSums cleared) {
-    spare_ = std::move(cleared);
+void CellAccumulator<Sampler>::give_back(Blocks cleared) {
+    spare_.emplace(sums_.pass(), shape(), std::move(cleared));
 }
 
 }  // namespace treefarm

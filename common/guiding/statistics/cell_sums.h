@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/base/bytes.h"
-#include "common/base/large_table.h"
-#include "common/base/prefetch.h"
 #include "common/decide/next_event/next_event_sums.h"
+#include "common/evidence/blocks.h"
 #include "common/guiding/statistics/record_units.h"
 #include "common/math/elementary.h"
 
@@ -72,84 +72,95 @@ struct SumsShape {
           with_visits(visits),
           with_next_event(next_event) {}
     bool operator==(const SumsShape&) const = default;
-    std::size_t light_sums() const { return with_lights ? std::size_t{regions} * kLightClusters : 0; }
-    std::size_t next_event_sums() const { return with_next_event ? std::size_t{regions} * kNextEventSums : 0; }
+    std::uint32_t distributions() const { return regions + views; }
     /// Index of a distribution's first mixture bin. For the distribution after the last it is the number of bins.
     std::size_t mixture_begin(std::uint32_t distribution) const {
         return with_mixture ? std::size_t{distribution} * kMixtureBins : 0;
     }
 };
 
-/// Dense sums over the cells and distributions of one model. Exact integers, so addition in any order gives the same
-/// bits.
+/// Blocks of a CellSums. A kind of sums that the shape lacks has no rows.
+std::vector<BlockShape> cell_blocks(const SumsShape& shape);
+
+/// Sums over the cells and distributions of one model, as blocks: what a guide with cells learns from.
 class CellSums {
   public:
     CellSums() = default;
-    CellSums(std::uint32_t pass, const SumsShape& shape);
+    CellSums(std::uint32_t pass, const SumsShape& shape) : CellSums(pass, shape, Blocks(cell_blocks(shape), pass)) {}
+    /// Sums in blocks of this shape.
+    CellSums(std::uint32_t pass, const SumsShape& shape, Blocks blocks)
+        : pass_(pass), shape_(shape), blocks_(std::move(blocks)) {}
     CellSums(std::uint32_t pass, std::uint32_t regions, std::uint32_t cells, bool with_mixture = false)
         : CellSums(pass, SumsShape(regions, cells, with_mixture)) {}
 
+    const Blocks& blocks() const { return blocks_; }
+    Blocks take_blocks() { return std::move(blocks_); }
+
     std::uint32_t pass() const { return pass_; }
-    const LargeTable<std::uint64_t>& cells() const { return cells_; }
+    const LargeTable<std::uint64_t>& cells() const { return blocks_.sums(kCells).values(); }
     /// Recorded vertices per distribution, including those without radiance.
-    const std::vector<std::uint64_t>& counts() const { return counts_; }
+    const LargeTable<std::uint64_t>& counts() const { return blocks_.sums(kCounts).values(); }
     /// Mixture histogram of a distribution; empty if no mixture is learned.
     std::span<const std::uint64_t> mixture(std::uint32_t distribution) const {
-        const std::size_t begin = shape_.mixture_begin(distribution);
-        return {mixture_.data() + begin, shape_.mixture_begin(distribution + 1) - begin};
+        return row(kMixture, shape_.with_mixture, distribution);
     }
     /// Second moments of next event in a region, per cluster of emitters; empty if not learned.
     std::span<const std::uint64_t> lights(std::uint32_t region) const {
-        if (!shape_.with_lights) return {};
-        return {lights_.data() + std::size_t{region} * kLightClusters, kLightClusters};
+        return row(kLights, shape_.with_lights, region);
     }
     /// Sums of direct light of a region; empty if no decision needs them.
     std::span<const std::uint64_t> next_event(std::uint32_t region) const {
-        if (!shape_.with_next_event) return {};
-        return {next_event_.data() + std::size_t{region} * kNextEventSums, kNextEventSums};
+        return row(kNextEvent, shape_.with_next_event, region);
     }
     /// Visits per cell; empty if not needed.
-    const LargeTable<std::uint64_t>& visits() const { return visits_; }
+    const LargeTable<std::uint64_t>& visits() const { return blocks_.sums(kVisits).values(); }
     const SumsShape& shape() const { return shape_; }
-    const UpdateCaps& caps() const { return caps_; }
+    UpdateCaps caps() const { return caps_of(blocks_); }
+    /// Limits that were reached, of the sums' blocks.
+    static UpdateCaps caps_of(const Blocks& blocks);
 
-    void add_count(std::uint32_t distribution, std::uint64_t count) { counts_[distribution] += count; }
+    void add_count(std::uint32_t distribution, std::uint64_t count) { blocks_.sums(kCounts).add(distribution, count); }
     /// Adds to a cell. False if the sum exceeds 2^64 - 1 and stays there (the caller counts it).
-    bool add_quanta(std::uint32_t cell, std::uint64_t quanta) { return add_saturating(cells_[cell], quanta); }
-    void prefetch_cell(std::uint32_t cell) const { prefetch_line(&cells_[cell]); }
+    bool add_quanta(std::uint32_t cell, std::uint64_t quanta) { return blocks_.sums(kCells).add(cell, quanta); }
+    void prefetch_cell(std::uint32_t cell) const { blocks_.sums(kCells).prefetch(cell); }
     void prefetch_mixture(std::uint32_t distribution) const {
-        prefetch_line(mixture_.data() + shape_.mixture_begin(distribution));
+        blocks_.sums(kMixture).prefetch(shape_.mixture_begin(distribution));
     }
-    void add_visit(std::uint32_t cell) { ++visits_[cell]; }
-    bool add_light(std::uint32_t region, int cluster, std::uint64_t quanta);
+    void add_visit(std::uint32_t cell) { blocks_.sums(kVisits).add(cell, 1); }
+    bool add_light(std::uint32_t region, int cluster, std::uint64_t quanta) {
+        return blocks_.sums(kLights).add(std::size_t{region} * kLightClusters + static_cast<std::size_t>(cluster),
+                                         quanta);
+    }
     void add_next_event(std::uint32_t region, const NextEventSums& sums) {
         for (std::size_t i = 0; i < kNextEventSums; ++i)
-            add_saturating(next_event_[std::size_t{region} * kNextEventSums + i], sums[i]);
+            blocks_.sums(kNextEvent).add(std::size_t{region} * kNextEventSums + i, sums[i]);
     }
     bool add_mixture(std::uint32_t distribution, std::uint8_t bin, std::uint64_t quanta) {
-        return add_saturating(mixture_[shape_.mixture_begin(distribution) + bin], quanta);
+        return blocks_.sums(kMixture).add(shape_.mixture_begin(distribution) + bin, quanta);
     }
-    void add_caps(const UpdateCaps& caps) { caps_.add(caps); }
+    void add_caps(const UpdateCaps& caps);
     void add(const CellSums& other);
-    void clear();
+    void clear() { blocks_.clear(); }
 
-    /// Sparse form: only cells and counts that are not zero (docs/design/protocol.md, "tree update").
+    /// The form of evidence of a pass with these blocks alone.
     Bytes encode() const;
-    /// Adds an encoded update. Pass, order and range of every entry are checked first; throws FormatError. Returns the
-    /// number of touched cells.
+    /// Adds what encode() wrote; throws FormatError, before anything is added, if it does not fit. Returns the number
+    /// of touched cells.
     std::uint64_t merge_encoded(std::span<const std::uint8_t> update);
 
     bool operator==(const CellSums&) const = default;
 
   private:
+    /// Blocks in the order of cell_blocks(). Cells are the first: reports count those that updates touch.
+    enum Number : std::size_t { kCells, kCounts, kMixture, kLights, kVisits, kNextEvent, kCaps };
+
+    std::span<const std::uint64_t> row(Number block, bool exists, std::uint32_t number) const {
+        return exists ? blocks_.sums(block).row(number) : std::span<const std::uint64_t>();
+    }
+
     std::uint32_t pass_ = 0;
     SumsShape shape_;
-    LargeTable<std::uint64_t> cells_, visits_;
-    std::vector<std::uint64_t> counts_;
-    std::vector<std::uint64_t> mixture_;
-    std::vector<std::uint64_t> lights_;
-    std::vector<std::uint64_t> next_event_;
-    UpdateCaps caps_;
+    Blocks blocks_{cell_blocks(SumsShape())};
 };
 
 /// Cap of one contribution, in quanta: 2^24 capped ones fit in a cell.

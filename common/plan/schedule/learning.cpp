@@ -68,8 +68,10 @@ RefineSettings refine_settings(const Resolved& job, const PassPlan& pass, const 
     return settings;
 }
 
-SumsShape sums_shape(const PassPlan& pass, const AnyModel& model) {
-    return model.sums_shape(pass.learn_mixture);
+Evidence no_evidence(const PassPlan& pass, const AnyModel& model) {
+    std::vector<Blocks> owners{Decisions::blocks()};
+    if (pass.record) owners.push_back(model.blocks(pass.learn_mixture));
+    return {pass.index, std::move(owners)};
 }
 
 }  // namespace treefarm

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "common/evidence/evidence.h"
 #include "common/guiding/any_guide.h"
 #include "common/guiding/regions/refinement.h"
 #include "common/plan/schedule/schedule.h"
@@ -20,7 +21,10 @@ AnyModel first_model(const Resolved& job, const Scene& scene);
 /// Settings of the job for refining the tree after `pass` for `coming`.
 RefineSettings refine_settings(const Resolved& job, const PassPlan& pass, const PassPlan& coming);
 
-/// Shape of the sums of a pass over `model`.
-SumsShape sums_shape(const PassPlan& pass, const AnyModel& model);
+/// Owners of a pass's evidence, in their order; only passes that record have the guide's.
+enum EvidenceOwner : std::size_t { kDecisionsEvidence, kGuideEvidence };
+
+/// Evidence of a pass over `model` before its first work unit.
+Evidence no_evidence(const PassPlan& pass, const AnyModel& model);
 
 }  // namespace treefarm

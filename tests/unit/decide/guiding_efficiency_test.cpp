@@ -182,11 +182,12 @@ class Automatic {
         Decisions::apply(report.plan, state_.history.decisions, true);
         report.stats.paths = kSquare * spp;
         report.stats.rays = 4 * report.stats.paths;
-        if (report.plan.guided) report.stats.unguided = sums_of(double(deviation), unguided, 4.0, spp);
+        Decisions::Evidence sums;
+        if (report.plan.guided) sums.get<UnguidedSums>() = sums_of(double(deviation), unguided, 4.0, spp);
         state_.films.assign(1, {spp, 0, pixels(deviation, spp)});
         CombinedImage image;
         image.mean.assign(kSquare, Rgb64(1.0));
-        judge(state_, job_, image, kEdge, report);
+        judge(state_, job_, image, kEdge, sums, report);
         const Guiding verdict = report.decisions.get<GuidingVerdict>().guiding;
         EXPECT_EQ(verdict, state_.history.decisions.get<GuidingDecision::Memory>().verdict);
         guided = report.plan.guided;
@@ -317,7 +318,7 @@ TEST(Automatic, AnImageWithoutLightStaysGuided) {
     state.films.assign(1, {kSamples, 0, std::vector<PixelEstimate>(kSquare)});
     CombinedImage image;
     image.mean.assign(kSquare, Rgb64(0.0));
-    judge(state, resolved, image, kEdge, report);
+    judge(state, resolved, image, kEdge, Decisions::Evidence(), report);
     EXPECT_EQ(report.decisions.get<GuidingVerdict>().guiding, Guiding::open);
     EXPECT_EQ(report.decisions.get<GuidingVerdict>().efficiency.efficiency, 0);
     EXPECT_TRUE(state.tree.regions().image.inverse_levels.empty());

@@ -9,26 +9,26 @@
 
 #include "common/decide/emission/emission_shares.h"
 #include "common/decide/light_subpaths/light_subpath_constants.h"
-#include "common/decide/trace_stats.h"
 #include "common/film/splat_film.h"
 #include "common/plan/forecast/budget.h"
 #include "common/plan/schedule/schedule.h"
 #include "tests/support/losing_pass.h"
 #include "tests/support/resolved.h"
 #include "worker/integrators/path/split_paths.h"
+#include "worker/integrators/unit_stats.h"
 
 namespace treefarm {
 namespace {
 
 TEST(SplittingGain, ComparesVarianceAndRays) {
-    TraceStats stats;
+    UnitStats stats;
     PairedSamples pixel;
     for (const double s : {0.0, 2.0})
         pixel.add(1 + 0.5 * (s - 1), s);
-    pixel.finish(stats.splitting);
+    pixel.finish(stats.sums<SplittingSums>());
     stats.rays = 500;
     stats.split_path_rays = 100;
-    const SplittingGain gain = splitting_gain(stats.splitting, stats);
+    const SplittingGain gain = splitting_gain(stats.sums<SplittingSums>(), stats);
     EXPECT_NEAR(gain.variance, 4, 1e-3);
     EXPECT_NEAR(gain.mean_ratio, 1, 1e-3);
     EXPECT_DOUBLE_EQ(gain.rays, 500.0 / 400);
@@ -67,14 +67,14 @@ TEST(SplittingGain, OneSampleHasNoVarianceAndNonsenseIsLeftOut) {
 
 /// Sums over as many pixels as there can be, as bright as they come, do not wrap around.
 TEST(SplittingGain, BrightSamplesAreBounded) {
-    TraceStats stats;
+    UnitStats stats;
     PairedSamples pixel;
     for (const double s : {0.0, 1e300})
         pixel.add(s, s);
-    pixel.finish(stats.splitting);
+    pixel.finish(stats.sums<SplittingSums>());
     const double most = PairedSamples::kMost * PairedSamples::kMost / 2;
     EXPECT_LT(std::ldexp(most, 29) * 4096, std::ldexp(1.0, 64) * 1.001);
-    EXPECT_EQ(stats.splitting.split_variance, static_cast<std::uint64_t>(most * 4096));
+    EXPECT_EQ(stats.sums<SplittingSums>().split_variance, static_cast<std::uint64_t>(most * 4096));
 }
 
 TEST(SplittingGain, APathKnowsWhatItWouldCarryAlone) {
@@ -131,17 +131,17 @@ TEST(SplittingGain, WhatTheJobAsksForIsDone) {
 }
 
 TEST(LightSubpathGain, ComparesVarianceAndRays) {
-    TraceStats stats;
+    UnitStats stats;
     SubpathPairs pixel;
     // Alone: 0 or 4, variance 8. Both: 1 or 2, variance 1/2, and a splat of 1 for each of two samples, 1 by their
     // squares.
     pixel.add({.own = 1, .alone = 0, .splats = 1, .splat_squares = 1});
     pixel.add({.own = 2, .alone = 4, .splats = 1, .splat_squares = 1});
-    pixel.finish(stats.light_subpaths);
+    pixel.finish(stats.sums<LightSubpathSums>());
     stats.rays = 300;
     stats.shadow_rays = 100;
-    stats.light_subpaths.alone_rays = 200;
-    const LightSubpathGain gain = light_subpath_gain(stats.light_subpaths, stats);
+    stats.sums<LightSubpathSums>().alone_rays = 200;
+    const LightSubpathGain gain = light_subpath_gain(stats.sums<LightSubpathSums>(), stats);
     EXPECT_NEAR(gain.noise, 8 / 1.5, 1e-6);
     EXPECT_NEAR(gain.mean_ratio, 2 / 2.5, 1e-6);
     EXPECT_DOUBLE_EQ(gain.rays, 2.0);
@@ -166,19 +166,19 @@ TEST(LightSubpathGain, OneSampleHasNoVarianceAndNonsenseIsLeftOut) {
 /// have met: by theory its square is variance over samples.
 TEST(LightSubpathGain, MissedLightIsNoiseThatNobodyHasSeen) {
     const auto noise = [](double splat, bool a_sample_alone = false) {
-        TraceStats stats;
-        stats.rays = stats.light_subpaths.alone_rays = 1;
+        UnitStats stats;
+        stats.rays = stats.sums<LightSubpathSums>().alone_rays = 1;
         SubpathPairs pixel;
         const SubpathPairs::Sample sample{.own = 1, .alone = 1, .splats = splat, .splat_squares = 0.5};
         for (int pixels = 0; pixels < 4; ++pixels) {
             for (int i = 0; i < 8; ++i)
                 pixel.add(sample);
-            pixel.finish(stats.light_subpaths);
+            pixel.finish(stats.sums<LightSubpathSums>());
             if (!a_sample_alone) continue;
             pixel.add(sample);
-            pixel.finish(stats.light_subpaths);
+            pixel.finish(stats.sums<LightSubpathSums>());
         }
-        return light_subpath_gain(stats.light_subpaths, stats).noise;
+        return light_subpath_gain(stats.sums<LightSubpathSums>(), stats).noise;
     };
     EXPECT_NEAR(noise(1.0), 32 / 0.5, 1e-4) << "camera paths alone show none";
     EXPECT_EQ(noise(1.0, true), noise(1.0)) << "passes of 9 spp: a block of one sample has no variance";

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "common/decide/decisions.h"
+#include "common/evidence/evidence.h"
 #include "common/protocol/archive.h"
 
 // Parts of others contain arrays.
@@ -19,7 +20,21 @@ namespace {
 
 /// Passes sample emitters directly once two of them found light along fewer than one path in a hundred.
 struct DarkDecision {
-    using Evidence = TraceCounts;
+    /// What paths that light found add up to.
+    struct Evidence {
+        std::uint64_t paths = 0, found = 0;
+
+        static constexpr BlockShape kBlock{"dark", "paths", BlockKind::sums, 1, 2};
+        template <class Sums, class Visit>
+        static constexpr void each(Sums& sums, Visit visit) {
+            visit(sums.paths);
+            visit(sums.found);
+        }
+        void add(const Evidence& other) {
+            paths += other.paths;
+            found += other.found;
+        }
+    };
 
     struct Memory {
         std::uint32_t dark_passes = 0;
@@ -40,8 +55,8 @@ struct DarkDecision {
     };
 
     static constexpr bool kScheduled = true;
-    static void judge(const JudgedPass&, const Evidence& counts, Memory& memory, Figures& figures) {
-        figures.found = static_cast<double>(counts.nonzero_paths) / static_cast<double>(counts.paths);
+    static void judge(const JudgedPass&, const Evidence& sums, Memory& memory, Figures& figures) {
+        figures.found = static_cast<double>(sums.found) / static_cast<double>(sums.paths);
         if (figures.found < 0.01) ++memory.dark_passes;
     }
     static void apply(PassPlan& plan, const Memory& memory) {
@@ -61,11 +76,19 @@ using Extended = decltype(with_toy(Decisions()));
 /// Judges a pass of 1000 paths, of which so many found light, and returns the figures.
 Extended::Figures judge(Extended::Memories& memories, std::uint64_t found) {
     const PassPlan plan;
-    TraceStats stats;
-    stats.paths = 1000;
-    stats.nonzero_paths = found;
+    const TraceCounts counts;
+    Blocks received = Extended::blocks();
+    for (const std::uint64_t part : {found / 3, found - found / 3}) {  // of two work units
+        Extended::Evidence sums;
+        sums.get<DarkDecision::Evidence>() = {500, part};
+        Blocks sent = Extended::blocks();
+        Extended::put(sums, sent);
+        const Blocks* const owners[] = {&sent};
+        Blocks* const collected[] = {&received};
+        merge_evidence(0, collected, encode_evidence(0, owners));
+    }
     Extended::Figures figures;
-    Extended::judge({.plan = plan, .counts = stats}, stats, memories, figures);
+    Extended::judge({.plan = plan, .counts = counts}, Extended::evidence(received), memories, figures);
     return figures;
 }
 
@@ -87,6 +110,7 @@ TEST(ToyDecision, ChangesThePlanByWhatPassesCounted) {
 
 /// Decision that reports what the next pass does by decisions before it.
 struct FollowingDecision : DarkDecision {
+    struct Evidence : DarkDecision::Evidence {};
     struct Memory : DarkDecision::Memory {};
     struct Figures : DarkDecision::Figures {};
 
@@ -105,11 +129,12 @@ TEST(ToyDecision, IsSeenByThoseAfterIt) {
     using Two = DecisionList<DarkDecision, FollowingDecision>;
     Two::Memories memories;
     const PassPlan plan;
-    TraceStats stats;
-    stats.paths = 1000;
+    const TraceCounts counts;
+    Two::Evidence sums;
+    sums.get<DarkDecision::Evidence>() = {1000, 0};
     for (const double follows : {0, 1}) {
         Two::Figures figures;
-        Two::judge({.plan = plan, .counts = stats}, stats, memories, figures);
+        Two::judge({.plan = plan, .counts = counts}, sums, memories, figures);
         EXPECT_EQ(figures.get<FollowingDecision::Figures>().found, follows);
     }
 }

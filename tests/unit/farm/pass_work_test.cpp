@@ -13,8 +13,8 @@ TEST(PassWork, ABundleHoldsWhatItsOwnUnitsTaught) {
     const SdTree tree = test::random_tree(3, 20000, 2000, 1);
     PassWork work({.index = tree.pass, .spp = 1, .record = true, .learn_mixture = true}, tree, DirectionalFilter::box);
     UnitOutput output;
-    output.begin(work.guide().regions().distribution_count());
-    RecordLog& log = output.log;
+    output.begin(work.guide());
+    RecordLog& log = output.log.of<SdTreeGuide>();
     for (const Record& record : test::random_records(work.guide().regions(), 5000, 9)) {
         log.records.push_back(record);
         ++log.counts[record.distribution];
@@ -29,8 +29,8 @@ TEST(PassWork, ABundleHoldsWhatItsOwnUnitsTaught) {
         const std::optional<Result> result = work.close();
         ASSERT_TRUE(result.has_value());
         EXPECT_EQ(result->units.size(), 1u);
-        if (bundle == 0) first = result->update;
-        EXPECT_EQ(result->update, first) << "bundle " << bundle;
+        if (bundle == 0) first = result->evidence;
+        EXPECT_EQ(result->evidence, first) << "bundle " << bundle;
         EXPECT_FALSE(work.close().has_value());
     }
     EXPECT_GT(first.size(), 5000u);
@@ -46,7 +46,7 @@ TEST(PassWork, ABundleHoldsTheSplatsOfItsOwnUnits) {
     SplatSums all(plan.layers.splats), bundles(plan.layers.splats);
     UnitOutput output;
     for (std::uint32_t unit = 0; unit < 20; ++unit) {
-        output.begin(work.guide().regions().distribution_count(), plan.layers.splats);
+        output.begin(work.guide(), plan.layers.splats);
         for (std::uint32_t k = 0; k < (unit < 15 ? unit : 0); ++k)
             output.splats.add((unit * 7 + k) % 50, k, Rgb(static_cast<float>(k)), {1, 2, 3, 4});
         all.add(output.splats.summed(), output.splats.caps());

@@ -24,7 +24,7 @@ PassPlan light_pass(std::uint32_t paths) {
 
 std::vector<PixelEstimate> replica(const PassPlan& plan, std::uint64_t seed) {
     UnitOutput output;
-    output.begin(0, plan.layers.splats);
+    output.splats.begin(plan.layers.splats);
     WorkUnit all{.kind = UnitKind::light_paths};
     all.count = plan.units.light_paths * kPixels;
     test::fake_light_paths(seed, plan, all, output);
@@ -45,7 +45,7 @@ TEST(Develop, VariancesOfChainsAreThoseOfReplicas) {
     double sum = 0, squares = 0, expected = 0;
     for (std::uint64_t r = 0; r < kReplicas; ++r) {
         UnitOutput output;
-        output.begin(0, plan.layers.splats);
+        output.splats.begin(plan.layers.splats);
         test::fake_chains(100 + r, plan, all, output);
         SplatSums sums(plan.layers.splats);
         sums.add(output.splats.summed(), output.splats.caps());

@@ -137,7 +137,7 @@ TEST(Instances, LookLikeTheFlattenedMeshes) {
         pass.blocks_per_unit = 64;
         std::vector<PixelEstimate> pixels;
         RecordLog log;
-        TraceStats stats;
+        UnitStats stats;
         test::render_unit(trace, job, pass, guide, {0, 0, 0, 32, 32, 0}, pixels, log, stats);
         EXPECT_EQ(stats.invalid_samples, 0u);
         return pixels;

@@ -62,7 +62,7 @@ TEST(Crop, GroupsOfPixelsAreTheSameForWorkerAndFilm) {
         const Moments m = run.passes[1].pixels[p].whole();
         film[pixel_group(p % 11, p / 11)] += (m.m2.y + m.n * m.mean.y * m.mean.y) / (levels * levels);
     }
-    const UnguidedSums& sums = run.stats[1].unguided;
+    const UnguidedSums& sums = run.stats[1].sums<UnguidedSums>();
     for (std::size_t g = 0; g < film.size(); ++g)
         EXPECT_NEAR(static_cast<double>(sums.guided[g]) * UnguidedSums::kMomentUnit, film[g], 0.35 * film[g] + 1e-6)
             << g;

@@ -48,9 +48,9 @@ TEST(EstimatorList, SaysWhoTeachesATree) {
         PassPlan pass = plan_passes(resolved)[0];
         pass.kernel = kernel_of(resolved, pass, facts_of(tree));
         UnitOutput output;
-        output.begin(guide.regions().distribution_count(), pass.layers.splats);
+        output.begin(guide, pass.layers.splats);
         make_renderer(scene, resolved)(pass, guide, cut_pass(pass, 8, 8, 8)[0], output);
-        EXPECT_EQ(!output.log.records.empty(), estimator.guides) << estimator.type;
+        EXPECT_EQ(!output.log.of<SdTreeGuide>().records.empty(), estimator.guides) << estimator.type;
     }
 }
 

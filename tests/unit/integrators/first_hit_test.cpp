@@ -205,9 +205,9 @@ TEST(DirectLight, IsPartOfEachGuidedSample) {
         pass.next_event = next_event;
         pass.kernel = kernel_of(resolved, pass, facts_of(learned.tree()));
         UnitOutput output;
-        output.begin(guide.distribution_count());
+        output.begin(AnySampler(guide));
         renderer(pass, guide, {3, 0, 0, 16, 16, 0}, output);
-        EXPECT_GT(output.log.records.size(), 0u) << "the direct part must not take the records along";
+        EXPECT_GT(output.log.of<SdTreeGuide>().records.size(), 0u) << "the direct part must not take the records along";
         EXPECT_GT(output.stats.split_path_rays, 0u) << "the test must exercise splitting";
         for (std::size_t p = 0; p < 256; ++p) {
             const Rgb64 whole = output.pixels[p].whole().mean, direct = output.aovs.direct[p].whole().mean;

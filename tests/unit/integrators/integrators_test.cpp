@@ -271,7 +271,7 @@ TEST(Guides, AModelOfAnotherGuideThanTheJobsIsRefused) {
         pass.kernel = kernel_of(resolved, pass, facts_of(model));
         const AnySampler guide(model);
         UnitOutput output;
-        output.begin(guide.regions().distribution_count());
+        output.begin(guide);
         const WorkUnit unit{.pass = pass.index, .x1 = 1, .y1 = 1};
         if (own)
             EXPECT_NO_THROW(render(pass, guide, unit, output));

@@ -46,9 +46,9 @@ class Numbered {
 
     Brought trace(const Numbers auto& numbers) {
         UnitOutput output;
-        output.begin(1, pass_.layers.splats);
+        output.splats.begin(pass_.layers.splats);
         const EmissionChoice choice = traced_.emitters().emission_choice();
-        EmissionRecord record(choice, false, pass_, output.stats.emission);
+        EmissionRecord record(choice, false, pass_, output.stats.sums<EmissionSums>());
         Brought brought;
         const Ray ray = traced_.camera().generate(20, 40, numbers);
         if (job_.integrator.type == "reference") {

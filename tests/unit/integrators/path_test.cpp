@@ -35,7 +35,7 @@ PassPlan one_pass(std::uint32_t spp, bool next_event, bool record = false) {
 struct Rendered {
     std::vector<PixelEstimate> pixels;
     RecordLog log;
-    TraceStats stats;
+    UnitStats stats;
     Rgb64 mean{0.0};
 };
 
@@ -275,7 +275,7 @@ TEST(Path, TheFilmRefusesWhatIsNoRadiance) {
         job.guiding.type = GuidingType::ppg;
         const Rendered r = render(scene, job, one_pass(1, false, true));
         EXPECT_EQ(r.stats.invalid_samples, 64u);
-        EXPECT_EQ(r.stats.first_invalid.size(), TraceStats::kMaxReported);
+        EXPECT_EQ(r.stats.first_invalid.size(), UnitStats::kMaxReported);
         EXPECT_EQ(r.stats.first_invalid[1].x, 1);
         EXPECT_EQ(r.mean.x, 0.0);
         EXPECT_TRUE(r.log.records.empty()) << "what a refused path taught is dropped";
@@ -293,7 +293,7 @@ TEST(Path, AUnitDoesNotDependOnHowTheImageIsCut) {
     const Rendered whole = render(scene, job, pass);
     std::vector<PixelEstimate> part;
     RecordLog log;
-    TraceStats stats;
+    UnitStats stats;
     test::render_unit(trace, job, pass, guide, {0, 5, 3, 9, 10, 0}, part, log, stats);
     ASSERT_EQ(part.size(), 28u);
     for (std::size_t i = 0; i < part.size(); ++i) {
@@ -358,7 +358,7 @@ TEST(Path, VerticesOutsideTheTreeAreCounted) {
     const SdTreeSampler small(initial_tree(Box3(Vec3(-0.5f), Vec3(0.5f)), 1.0f));
     std::vector<PixelEstimate> pixels;
     RecordLog log;
-    TraceStats stats;
+    UnitStats stats;
     test::render_unit(trace, job, one_pass(1, false, true), small, {0, 0, 0, 8, 8, 0}, pixels, log, stats);
     EXPECT_EQ(log.caps.outside_positions, stats.vertices);
     EXPECT_GT(stats.vertices, 0u);

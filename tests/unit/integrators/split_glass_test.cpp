@@ -107,7 +107,7 @@ TEST(SplitGlass, IsTheSameHoweverTheImageIsCut) {
     const SdTreeSampler guide(initial_tree(scene.bounds(), 1.0f));
     const auto render = [&](const WorkUnit& unit, RecordLog& log) {
         std::vector<PixelEstimate> pixels;
-        TraceStats stats;
+        UnitStats stats;
         test::render_unit(trace, job, pass, guide, unit, pixels, log, stats);
         return pixels;
     };
@@ -191,7 +191,7 @@ Traced trace(const TraceScene& scene, const Job& job, const PassPlan& pass, cons
     Traced traced;
     RecordLog log;
     log.begin(guide.distribution_count());
-    TraceStats stats;
+    UnitStats stats;
     test::render_unit(scene, job, pass, guide, unit, traced.pixels, log, stats);
     for (const Record& r : log.records)
         traced.records.emplace_back(r.distribution, r.code, r.rounding, r.value, r.reflected, r.bin);

@@ -127,7 +127,7 @@ class SplittingInARoom : public ::testing::Test {
     struct Rendered {
         std::vector<PixelEstimate> pixels;
         RecordLog log;
-        TraceStats stats;
+        UnitStats stats;
     };
 
     Rendered render(const Job& job, const WorkUnit& unit) const {
@@ -159,7 +159,7 @@ TEST_F(SplittingInARoom, DoesNotDependOnOtherPaths) {
     alone.guiding.splitting = 1;
     EXPECT_GT(whole.stats.rays, render(alone, part(0, 0, 24, 16)).stats.rays * 21 / 20) << "the test must split paths";
     std::uint64_t records = 0;
-    TraceStats stats;
+    UnitStats stats;
     std::vector<std::uint32_t> counts(whole.log.counts.size());
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 24; x += y % 2 ? 1 : 8) {
@@ -178,10 +178,10 @@ TEST_F(SplittingInARoom, DoesNotDependOnOtherPaths) {
         }
     EXPECT_EQ(stats.rays, whole.stats.rays);
     EXPECT_EQ(stats.split_path_rays, whole.stats.split_path_rays);
-    EXPECT_EQ(stats.splitting.split_mean, whole.stats.splitting.split_mean);
-    EXPECT_EQ(stats.splitting.unsplit_mean, whole.stats.splitting.unsplit_mean);
-    EXPECT_EQ(stats.splitting.split_variance, whole.stats.splitting.split_variance);
-    EXPECT_EQ(stats.splitting.unsplit_variance, whole.stats.splitting.unsplit_variance);
+    EXPECT_EQ(stats.sums<SplittingSums>().split_mean, whole.stats.sums<SplittingSums>().split_mean);
+    EXPECT_EQ(stats.sums<SplittingSums>().unsplit_mean, whole.stats.sums<SplittingSums>().unsplit_mean);
+    EXPECT_EQ(stats.sums<SplittingSums>().split_variance, whole.stats.sums<SplittingSums>().split_variance);
+    EXPECT_EQ(stats.sums<SplittingSums>().unsplit_variance, whole.stats.sums<SplittingSums>().unsplit_variance);
     EXPECT_EQ(records, whole.log.records.size());
     EXPECT_EQ(counts, whole.log.counts);
 }
@@ -190,7 +190,7 @@ TEST_F(SplittingInARoom, DoesNotDependOnOtherPaths) {
 TEST_F(SplittingInARoom, UnsplitSamplesAreThoseOfPathsThatAreNotSplit) {
     pass_.spp = 1024;  // rare samples make most of the noise
     const Rendered split = render(job_, part(0, 0, 24, 16));
-    const SplittingGain gain = splitting_gain(split.stats.splitting, split.stats);
+    const SplittingGain gain = splitting_gain(split.stats.sums<SplittingSums>(), split.stats);
     EXPECT_NEAR(gain.mean_ratio, 1, 0.1);
     EXPECT_GT(gain.variance, 1.1);
     EXPECT_GT(gain.rays, 1.05);
@@ -198,7 +198,7 @@ TEST_F(SplittingInARoom, UnsplitSamplesAreThoseOfPathsThatAreNotSplit) {
     alone.guiding.splitting = 1;
     const Rendered unsplit = render(alone, part(0, 0, 24, 16));
     EXPECT_EQ(unsplit.stats.split_path_rays, 0u);
-    EXPECT_EQ(splitting_gain(unsplit.stats.splitting, unsplit.stats).variance, 0) << "nothing to compare";
+    EXPECT_EQ(splitting_gain(unsplit.stats.sums<SplittingSums>(), unsplit.stats).variance, 0) << "nothing to compare";
     double with = 0, without = 0;
     for (std::size_t p = 0; p < split.pixels.size(); ++p) {
         // Relative, as passes compare: to the pixel's light here, to what its first region expects there.
@@ -250,11 +250,11 @@ TEST(Splitting, FractionsSumToOne) {
     pass.next_event = false;
     std::vector<PixelEstimate> pixels;
     RecordLog log;
-    TraceStats stats;
+    UnitStats stats;
     test::render_unit(TraceScene(scene, resolve(job, scene)), job, pass, SdTreeSampler(tree),
                       {pass.index, 0, 0, 16, 16, 0}, pixels, log, stats);
     EXPECT_GT(stats.rays, 6 * stats.paths + stats.paths / 2) << "the test must split paths: of six edges each";
-    const SplittingGain gain = splitting_gain(stats.splitting, stats);
+    const SplittingGain gain = splitting_gain(stats.sums<SplittingSums>(), stats);
     EXPECT_NEAR(gain.mean_ratio, 1, 1e-6) << "alone they carry the same";
     EXPECT_NEAR(gain.variance, 1, 1e-6) << "of pixels across regions, whose scales differ";
     EXPECT_EQ(stats.rays - stats.split_path_rays, 6 * stats.paths);

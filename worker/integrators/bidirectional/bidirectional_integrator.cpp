@@ -24,7 +24,7 @@ RenderUnit prepare_bidirectional(std::shared_ptr<const TraceScene> scene, const 
                                                    UnitOutput& output) {
         with_surface(*scene, [&]<class Surface>() {
             const EmissionChoice choice = scene->emitters().emission_choice(pass.emission);
-            EmissionRecord record(choice, job.learns_emission, pass, output.stats.emission);
+            EmissionRecord record(choice, job.learns_emission, pass, output.stats.sums<EmissionSums>());
             BidirectionalTracer<Surface> tracer(*scene, sensor, BidirectionalRules(*scene, job, pass), choice, record,
                                                 pass, output);
             render_samples(*scene, job, pass, unit, output,

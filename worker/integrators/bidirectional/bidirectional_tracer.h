@@ -44,7 +44,7 @@ class BidirectionalTracer {
     }
 
     /// Ends a unit, after its last sample.
-    void finish() { pairs_.finish(stats_.light_subpaths); }
+    void finish() { pairs_.finish(stats_.sums<LightSubpathSums>()); }
 
   private:
     /// Vertex z_(depth) of the camera subpath.
@@ -69,10 +69,10 @@ class BidirectionalTracer {
 
     /// Records the sample's radiance with its light subpath, and its radiance without.
     void compare(std::uint32_t sample, const Rgb& radiance, const SampleConnections::Sums& sums, std::uint64_t rays) {
-        if ((sample - first_sample_) % kBlockSamples == 0) pairs_.finish(stats_.light_subpaths);
+        if ((sample - first_sample_) % kBlockSamples == 0) pairs_.finish(stats_.sums<LightSubpathSums>());
         pairs_.add({per_usual_ * luminance(radiance), per_usual_ * (met_alone_ + sums.alone), per_usual_ * sums.splats,
                     per_usual_ * per_usual_ * sums.splat_squares});
-        stats_.light_subpaths.alone_rays += rays + next_event_rays_;
+        stats_.sums<LightSubpathSums>().alone_rays += rays + next_event_rays_;
         next_event_rays_ = 0;
     }
 
@@ -273,7 +273,7 @@ class BidirectionalTracer {
     EmissionRecord& record_;
     const std::uint32_t first_sample_;
     const double per_usual_;  ///< scale by the splats' usual contribution
-    TraceStats& stats_;
+    UnitStats& stats_;
     SampleConnections connections_;
     LightSubpath<Surface> light_;
     SubpathPairs pairs_;

@@ -11,7 +11,7 @@ RenderUnit prepare_light(std::shared_ptr<const TraceScene> scene, const Resolved
                                                    UnitOutput& output) {
         const double start = thread_cpu_seconds();
         const EmissionChoice choice = scene->emitters().emission_choice(pass.emission);
-        EmissionRecord record(choice, job.learns_emission, pass, output.stats.emission);
+        EmissionRecord record(choice, job.learns_emission, pass, output.stats.sums<EmissionSums>());
         with_surface(*scene, [&]<class Surface>() {
             LightTracer<Surface> tracer(*scene, sensor, LightPathRules(job.integrator), choice, record, output);
             const std::uint64_t pixels = pass.layers.splats.pixels;

@@ -45,6 +45,21 @@ concept GuideWalk = std::derived_from<typename G::Sampler, RegionSampler> &&
     lights.convert();
 };
 
+/// Log of the records of a walk: the walk's own type, or that of guides with cells.
+template <class G>
+struct LogOfWalk {
+    using type = RecordLog;
+};
+template <class G>
+requires requires {
+    typename G::Log;
+}
+struct LogOfWalk<G> {
+    using type = typename G::Log;
+};
+template <class G>
+using LogOf = typename LogOfWalk<G>::type;
+
 /// Adapter for unguided paths that record nothing.
 struct NoGuide {
     using Sampler = RegionSampler;

@@ -6,8 +6,8 @@
 
 #include "common/base/random.h"
 #include "common/decide/next_event/next_event_constants.h"
-#include "common/decide/trace_stats.h"
 #include "worker/integrators/path/path_state.h"
+#include "worker/integrators/unit_stats.h"
 
 namespace treefarm {
 
@@ -16,7 +16,7 @@ namespace treefarm {
 template <bool kRecord>
 class NextEventCounts {
   public:
-    NextEventCounts(TraceStats& stats, std::span<NextEventSums> regions) : stats_(stats), regions_(regions) {}
+    NextEventCounts(UnitStats& stats, std::span<NextEventSums> regions) : stats_(stats), regions_(regions) {}
 
     /// Whether a path's direct light is counted: true for a few samples of each pixel.
     static bool counts(const PathKey& key) {
@@ -56,16 +56,16 @@ class NextEventCounts {
     }
 
     void add(std::uint32_t region, NextEventSum sum) const {
-        ++stats_.next_event[sum];
+        ++stats_.sums<NextEventSums>()[sum];
         if constexpr (kRecord) ++regions_[region][sum];
     }
 
     NextEventSums& sums(std::uint32_t region) const {
         if constexpr (kRecord) return regions_[region];
-        return stats_.next_event;
+        return stats_.sums<NextEventSums>();
     }
 
-    TraceStats& stats_;
+    UnitStats& stats_;
     const std::span<NextEventSums> regions_;
 };
 

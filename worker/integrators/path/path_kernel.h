@@ -23,7 +23,7 @@ class PathKernel {
 
     /// Records are appended to `log`.
     PathKernel(const TraceScene& scene, const typename G::Sampler& guide, const PathSettings& settings,
-               TraceStats& stats, RecordLog* log = nullptr)
+               UnitStats& stats, LogOf<G>* log = nullptr)
         : stats_(stats),
           log_(log),
           walk_(scene, guide, settings, stats, log ? std::span(log->next_event) : std::span<NextEventSums>()) {
@@ -214,8 +214,8 @@ class PathKernel {
         }
     }
 
-    TraceStats& stats_;
-    RecordLog* log_;
+    UnitStats& stats_;
+    LogOf<G>* log_;
     Walk walk_;
     std::uint32_t count_ = 0;
     std::array<std::uint8_t, kBatch> slots_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -97,14 +98,17 @@ class PathRecorder {
 
     void add_outside() { ++outside_; }
 
-    /// Appends the path's records to `log`. Returns the number of counted vertices and next-event samples.
-    std::uint64_t commit(RecordLog& log) {
+    /// Appends the path's records to `log`; those of the choice of emitters only if it holds such records. Returns the
+    /// number of counted vertices and next-event samples.
+    template <class Log>
+    std::uint64_t commit(Log& log) {
+        using LogRecord = typename Log::Record;
         Rgb carried(0.0f);
         float replaced = 0.0f;  // bootstrapping's addition to the mean of `carried`
         std::uint64_t recorded = light_samples_.size();
         log.drafts.resize(
             std::max(log.drafts.size(), G::kRecordsPerVertex * (vertices_.size() + light_samples_.size())));
-        Record* end = log.drafts.data();
+        LogRecord* end = log.drafts.data();
         for (std::size_t i = vertices_.size(); i-- > 0;) {
             const Vertex& v = vertices_[i];
             carried = v.emission + (v.reflected + carried) * (1.0f / v.survival);
@@ -120,7 +124,8 @@ class PathRecorder {
         for (const LightSample& s : light_samples_)
             end = G::teach(rules_, s.rounding, s.target, s.taught, log, end);
         log.records.insert(log.records.end(), log.drafts.data(), end);
-        log.records.insert(log.records.end(), choices_.begin(), choices_.end());
+        if constexpr (std::is_same_v<LogRecord, Record>)
+            log.records.insert(log.records.end(), choices_.begin(), choices_.end());
         log.caps.outside_positions += outside_;
         return recorded;
     }

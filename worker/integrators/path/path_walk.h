@@ -6,7 +6,6 @@
 #include <cassert>
 #include <vector>
 
-#include "common/decide/trace_stats.h"
 #include "worker/integrators/path/direction_choice.h"
 #include "worker/integrators/path/emission.h"
 #include "worker/integrators/path/emitter_choice.h"
@@ -19,6 +18,7 @@
 #include "worker/integrators/path/phase_clock.h"
 #include "worker/integrators/path/seen_light.h"
 #include "worker/integrators/path/vertex_records.h"
+#include "worker/integrators/unit_stats.h"
 #include "worker/scene/surface.h"
 
 namespace treefarm {
@@ -35,7 +35,7 @@ class PathWalk {
     using Path = PathState<G, Surface>;
     using Recorder = PathRecorder<G>;
 
-    PathWalk(const TraceScene& scene, const typename G::Sampler& guide, const PathSettings& settings, TraceStats& stats,
+    PathWalk(const TraceScene& scene, const typename G::Sampler& guide, const PathSettings& settings, UnitStats& stats,
              std::span<NextEventSums> direct_light = {})
         : scene_(scene),
           guide_(guide),
@@ -53,7 +53,6 @@ class PathWalk {
     }
 
     PathWalk(const PathWalk&) = delete;
-
     /// Path slot; filled by the caller before walk().
     Path& operator[](std::uint32_t slot) { return paths_[slot]; }
     Recorder& recorder(std::uint32_t slot) { return recorders_[slot]; }
@@ -71,7 +70,6 @@ class PathWalk {
     /// Branches at glass and split paths that the traced paths left; the caller of walk() traces and removes them.
     GlassSplits& glass_splits() { return glass_; }
     SplitPaths& split_paths() { return split_paths_; }
-
     const PathSettings& settings() const { return settings_; }
     Observer& observer() { return observer_; }
     PhaseClock& clock() { return clock_; }
@@ -301,7 +299,10 @@ class PathWalk {
         }
         emitters_.draw();
         for (std::uint32_t i = 0; i < count; ++i)
-            Surface::kGeneral ? next_event(smooth[i]) : sample_emitter(smooth[i]);  // inlined: faster if simple
+            if constexpr (Surface::kGeneral)
+                next_event(smooth[i]);
+            else
+                sample_emitter(smooth[i]);
     }
 
     /// Point of a path's vertex, as next event chooses an emitter for it.
@@ -311,15 +312,14 @@ class PathWalk {
                 path.surface->transmits() ? nullptr : &front};
     }
 
-    /// Samples an emitter; the visibility is tested for all paths of a step together.
     void next_event(std::uint8_t index) { sample_emitter(index); }
+    /// Samples an emitter; its visibility is tested for all paths of a step together. Inlined if surfaces are simple.
     [[gnu::always_inline]] void sample_emitter(std::uint8_t index) {
         const Path& path = paths_[index];
         const Surface& surface = *path.surface;
         const LightReceiver at = receiver(path);
         const DirectSample light = emitters_.sample(at, path);
-        if (!chances_.accepts(path, light.delta)) return;
-        if (!(light.pdf > 0.0f) || light.black()) return;
+        if (!chances_.accepts(path, light.delta) || !(light.pdf > 0.0f) || light.black()) return;
         BsdfValue bsdf;
         if (surface.evaluate_late()) {
             if (at.one_sided && !(dot(at.front, light.wi) > 0.0f)) return;
@@ -376,7 +376,7 @@ class PathWalk {
     const TraceScene& scene_;
     const typename G::Sampler& guide_;
     const PathSettings settings_;
-    TraceStats& stats_;
+    UnitStats& stats_;
     PhaseClock clock_;
     std::vector<typename Surface::Scratch> scratch_;  ///< a path's surface exists for one step
     std::array<Path, kBatch> paths_;

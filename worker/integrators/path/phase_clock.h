@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "common/decide/trace_stats.h"
+#include "common/film/trace_stats.h"
 
 namespace treefarm {
 

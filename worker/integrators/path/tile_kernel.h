@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <span>
+#include <type_traits>
 
 #include "common/decide/splitting/splitting_gain.h"
 #include "common/guiding/any_guide.h"
@@ -23,8 +24,8 @@ struct TileJob {
     const AnySampler& guide;
     const WorkUnit& unit;
     std::vector<PixelEstimate>& pixels;
-    RecordLog& log;
-    TraceStats& stats;
+    AnyLog& log;
+    UnitStats& stats;
     WorstSample& worst;
 };
 
@@ -42,12 +43,21 @@ std::span<const TileKernel> unguided_kernels();
 /// Kernels of a guide (worker/guides/kernels.cpp).
 std::span<const KernelList> kernels_of(GuideKind kind);
 
+/// Log of the walk's guide; none of unguided walks.
+template <GuideWalk G>
+LogOf<G>* log_of(AnyLog& logs) {
+    if constexpr (std::is_same_v<typename G::Sampler, RegionSampler>)
+        return nullptr;
+    else
+        return &logs.of<GuideOf<typename G::Sampler>>();
+}
+
 template <GuideWalk G, class Surface, bool kGuided, bool kRecord>
 void render_with(const TileJob& tile) {
     const auto& [scene, job, pass, any_guide, unit, pixels, log, stats, worst] = tile;
     const auto& guide = any_guide.template get<typename G::Sampler>();
     const PathSettings settings(scene, job, pass, guide);
-    PathKernel<G, Surface, kGuided, kRecord> kernel(scene, guide, settings, stats, &log);
+    PathKernel<G, Surface, kGuided, kRecord> kernel(scene, guide, settings, stats, log_of<G>(log));
     const bool is_signed = scene.film().is_signed();
     const auto key = [&tile](const UnitCursor& at) {
         return PathKey{tile.job.sampler.seed, tile.scene.film().key_of(at.x, at.y), tile.pass.first_sample + at.sample};
@@ -74,8 +84,8 @@ void render_with(const TileJob& tile) {
         for (std::uint32_t i = 0; i < kernel.count(); ++i) {
             if (end.sample % kBlockSamples == 0) {
                 blocks.emplace_back();
-                pairs.finish(stats.splitting);
-                if (settings.estimates_unguided) unguided.finish(group, stats.unguided);
+                pairs.finish(stats.sums<SplittingSums>());
+                if (settings.estimates_unguided) unguided.finish(group, stats.sums<UnguidedSums>());
                 group = pixel_group(static_cast<std::uint32_t>(end.x), static_cast<std::uint32_t>(end.y));
             }
             Rgb radiance = kernel.radiance(i);
@@ -104,8 +114,8 @@ void render_with(const TileJob& tile) {
         kernel.clock().lap(TracePhase::record);
         stats.paths += kernel.count();
     }
-    pairs.finish(stats.splitting);
-    if (settings.estimates_unguided) unguided.finish(group, stats.unguided);
+    pairs.finish(stats.sums<SplittingSums>());
+    if (settings.estimates_unguided) unguided.finish(group, stats.sums<UnguidedSums>());
 }
 
 /// Kernels of a guide for one kind of surface.

@@ -45,12 +45,12 @@ std::vector<KernelChoice> compiled_kernels(GuideKind guide) {
 }
 
 void render_unit(const TraceScene& scene, const Resolved& job, const PassPlan& pass, const AnySampler& guide,
-                 const WorkUnit& unit, std::vector<PixelEstimate>& pixels, RecordLog& log, TraceStats& stats) {
+                 const WorkUnit& unit, std::vector<PixelEstimate>& pixels, AnyLog& log, UnitStats& stats) {
     const double start = thread_cpu_seconds();
     pixels.clear();
     pixels.reserve(unit.pixel_count());
     const RegionSampler& regions = guide.regions();
-    log.begin(pass.record ? regions.distribution_count() : 0,
+    log.begin(guide.kind(), pass.record ? regions.distribution_count() : 0,
               pass.record && counts_next_event(job, pass, regions) ? regions.region_count() : 0);
     WorstSample worst;
     const TileJob tile{scene, job, pass, guide, unit, pixels, log, stats, worst};

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/decide/trace_stats.h"
+#include "common/decide/emission/emission_shares.h"
 #include "common/plan/schedule/schedule.h"
 #include "worker/lights/emission_choice.h"
 

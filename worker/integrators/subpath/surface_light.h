@@ -2,7 +2,7 @@
 #pragma once
 
 #include "common/base/random.h"
-#include "common/decide/trace_stats.h"
+#include "common/film/trace_stats.h"
 #include "worker/scene/surface.h"
 
 namespace treefarm {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/decide/trace_stats.h"
-
-#include "common/math/saturating.h"
+#include "common/film/trace_stats.h"
 
 namespace treefarm {
 
@@ -14,12 +12,6 @@ void TraceStats::add(const TraceStats& other) {
     records += other.records;
     split_path_rays += other.split_path_rays;
     invalid_samples += other.invalid_samples;
-    for (std::size_t i = 0; i < kNextEventSums; ++i)
-        add_saturating(next_event[i], other.next_event[i]);
-    splitting.add(other.splitting);
-    unguided.add(other.unguided);
-    light_subpaths.add(other.light_subpaths);
-    emission.add(other.emission);
     for (const InvalidSample& sample : other.first_invalid)
         if (first_invalid.size() < kMaxReported) first_invalid.push_back(sample);
     tails.add(other.tails);

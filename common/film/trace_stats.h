@@ -3,14 +3,8 @@
 
 #include <array>
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
-#include "common/decide/emission/emission_shares.h"
-#include "common/decide/guiding/guiding_efficiency.h"
-#include "common/decide/light_subpaths/light_subpath_gain.h"
-#include "common/decide/next_event/next_event_sums.h"
-#include "common/decide/splitting/splitting_gain.h"
 #include "common/film/tail_samples.h"
 #include "common/film/trace_counts.h"
 
@@ -36,12 +30,6 @@ inline constexpr std::size_t kTracePhases = 5;
 
 /// Figures of tracing some units: counts are exact sums; seconds are measured and never influence a result.
 struct TraceStats : TraceCounts {
-    NextEventSums next_event{};  ///< filled if a decision on next event needs it; moments only in passes that do not
-                                 ///< record by region
-    SplittingSums splitting;
-    UnguidedSums unguided;  ///< of guided passes that measure guiding efficiency
-    LightSubpathSums light_subpaths;
-    EmissionSums emission;
     std::vector<InvalidSample> first_invalid;          ///< the first kMaxReported at most, to reproduce them
     TailSamples tails;                                 ///< of the path integrator: at most one per unit
     double trace_seconds = 0;                          ///< thread-seconds in the tile renderer
@@ -51,13 +39,6 @@ struct TraceStats : TraceCounts {
 
     static constexpr std::size_t kMaxReported = 16;
     void add(const TraceStats& other);
-
-    /// Sums of one type.
-    template <class Sums>
-    const Sums& sums() const {
-        return *std::get<const Sums*>(std::tuple(static_cast<const TraceCounts*>(this), &next_event, &splitting,
-                                                 &unguided, &light_subpaths, &emission));
-    }
 };
 
 }  // namespace treefarm
