@@ -90,8 +90,8 @@ class Limit {
         double splat = 0;
         mode.log_records = 0;
         const auto learn = [&](AnyLog& log) {
-            mode.log_records += log.records.size();
-            splat += seconds([&] { sums.commit(log.records, log.counts, log.caps); });
+            mode.log_records += log.of<SdTreeGuide>().records.size();
+            splat += seconds([&] { sums.commit(log); });
         };
         const double both = seconds([&] { render(pass(mode), job(mode), guide(mode), mode.stats, learn); });
         mode.render_seconds.push_back(both - splat);

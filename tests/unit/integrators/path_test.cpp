@@ -148,7 +148,7 @@ TEST(PathRecorder, RegionAndViewLearnTheirOwnMixtures) {
     RecordLog log;
     log.begin(2);
     recorder.begin_path();
-    recorder.add_vertex({0, 1}, 5, 2.0f, Rgb(0.5f), {3, 9}, 0);
+    recorder.add_vertex({0, {1}}, 5, 2.0f, Rgb(0.5f), {3, 9}, 0);
     recorder.add_emission(Rgb(4.0f));
     recorder.commit(log);
     ASSERT_EQ(log.records.size(), 2u);
