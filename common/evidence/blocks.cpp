@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/evidence/blocks.h"
 
+#include <algorithm>
+
 namespace treefarm {
 namespace {
 
@@ -36,26 +38,31 @@ void Blocks::clear() {
         block.clear();
     for (OwnedBlock& block : owned_)
         block.clear();
-    saturated_ = 0;
+}
+
+std::uint64_t Blocks::saturated() const {
+    std::uint64_t count = 0;
+    for (const SumBlock& block : sums_)
+        count += block.saturated();
+    return count;
 }
 
 void Blocks::add(const Blocks& other) {
-    const auto add_each = [](auto& blocks, const auto& others, auto add) {
-        bool same = blocks.size() == others.size();
-        for (std::size_t i = 0; same && i < blocks.size(); ++i)
-            same = blocks[i].shape() == others[i].shape();
-        if (!same) throw RunError("evidence of different shapes cannot be added");
-        for (std::size_t i = 0; i < blocks.size(); ++i)
-            add(blocks[i], others[i]);
+    const auto alike = [](const auto& blocks, const auto& others) {
+        return std::equal(blocks.begin(), blocks.end(), others.begin(), others.end(),
+                          [](const auto& a, const auto& b) { return a.shape() == b.shape(); });
     };
-    add_each(sums_, other.sums_, [&](SumBlock& a, const SumBlock& b) { saturated_ += a.add(b); });
-    add_each(chosen_, other.chosen_, [](ChosenBlock& a, const ChosenBlock& b) { a.add(b); });
-    add_each(owned_, other.owned_, [](OwnedBlock& a, const OwnedBlock& b) { a.add(b); });
-    add_saturating(saturated_, other.saturated_);
+    if (!alike(sums_, other.sums_) || !alike(chosen_, other.chosen_) || !alike(owned_, other.owned_))
+        throw RunError("evidence of different shapes cannot be added");
+    for (std::size_t i = 0; i < sums_.size(); ++i)
+        sums_[i].add(other.sums_[i]);
+    for (std::size_t i = 0; i < chosen_.size(); ++i)
+        chosen_[i].add(other.chosen_[i]);
+    for (std::size_t i = 0; i < owned_.size(); ++i)
+        owned_[i].add(other.owned_[i]);
 }
 
 void Blocks::write(ByteWriter& out) const {
-    out.put_varint(saturated_);
     const auto write_each = [&](const auto& blocks) {
         for (const auto& block : blocks) {
             out.put_varint(told_rows(block.shape()));
@@ -67,27 +74,27 @@ void Blocks::write(ByteWriter& out) const {
     write_each(owned_);
 }
 
-void Blocks::check(ByteReader& in) const {
-    if (in.get_varint() > kMostClaim) throw FormatError("evidence with a count that is too large");
-    const auto check_each = [&](const auto& blocks) {
-        for (const auto& block : blocks) {
-            expect_size(in, block.shape());
-            block.check(in);
-        }
-    };
-    check_each(sums_);
-    check_each(chosen_);
-    check_each(owned_);
+void Blocks::check(ByteReader& in, EvidencePart part) const {
+    for (const SumBlock& block : sums_) {
+        expect_size(in, block.shape());
+        block.check(in, part);
+    }
+    for (const ChosenBlock& block : chosen_) {
+        expect_size(in, block.shape());
+        block.check(in);
+    }
+    for (const OwnedBlock& block : owned_) {
+        expect_size(in, block.shape());
+        block.check(in);
+    }
 }
 
 std::uint64_t Blocks::merge(ByteReader& in) {
     std::uint64_t touched = 0;
-    saturated_ += in.get_varint();
     for (SumBlock& block : sums_) {
         in.get_varint();
-        const SumBlock::Merged merged = block.merge(in);
-        saturated_ += merged.saturated;
-        if (&block == sums_.data()) touched = merged.entries;
+        const std::uint64_t entries = block.merge(in);
+        if (&block == sums_.data()) touched = entries;
     }
     for (ChosenBlock& block : chosen_) {
         in.get_varint();

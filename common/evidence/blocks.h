@@ -27,16 +27,16 @@ class Blocks {
     OwnedBlock& owned(std::size_t number) { return owned_[number]; }
     const OwnedBlock& owned(std::size_t number) const { return owned_[number]; }
 
-    /// Sums that reached the largest integer when parts were merged.
-    std::uint64_t saturated() const { return saturated_; }
+    /// Number of sums that have reached 2^64 - 1.
+    std::uint64_t saturated() const;
 
     void clear();
-    /// Adds blocks of the same shapes; throws RunError for others.
+    /// Adds blocks of the same shapes and key. Throws RunError for others, and for rows that both have.
     void add(const Blocks& other);
 
     void write(ByteWriter& out) const;
     /// Reads what write() wrote, without adding it. Throws FormatError if it does not fit.
-    void check(ByteReader& in) const;
+    void check(ByteReader& in, EvidencePart part = EvidencePart::message) const;
     /// Adds what check() accepted. Returns the number of entries that it had in the first block of sums.
     std::uint64_t merge(ByteReader& in);
 
@@ -46,7 +46,6 @@ class Blocks {
     std::vector<SumBlock> sums_;
     std::vector<ChosenBlock> chosen_;
     std::vector<OwnedBlock> owned_;
-    std::uint64_t saturated_ = 0;
 };
 
 }  // namespace treefarm

@@ -8,6 +8,10 @@
 
 namespace treefarm {
 
+ChosenBlock::ChosenBlock(const BlockShape& shape, std::uint64_t key) : shape_(shape), key_(key) {
+    if (shape_.rows == 0 || shape_.rows == kGrowingRows) throw RunError("a block of chosen records without a capacity");
+}
+
 std::uint64_t ChosenBlock::hash(std::uint64_t name) const {
     return mix_bits(mix_bits(key_ + 0x9e3779b97f4a7c15u) ^ mix_bits(name + 1));
 }
@@ -77,7 +81,7 @@ void ChosenBlock::check(ByteReader& in) const {
         throw FormatError(std::string("evidence with ") + what + " in \"" + std::string(shape_.name) + "\"");
     };
     const std::size_t count = in.get_count(sizeof(std::uint64_t) + shape_.columns * sizeof(std::uint32_t));
-    if (count > most()) refuse("more records than its capacity");
+    if (count > most()) refuse("more records than are kept");
     Record last{};
     for (std::size_t i = 0; i < count; ++i) {
         const auto name = in.get<std::uint64_t>();

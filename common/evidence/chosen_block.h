@@ -11,17 +11,17 @@ namespace treefarm {
 
 /// Block of records, of which at most a capacity is kept: those with the smallest keyed hashes. That set of a union is
 /// the set of the parts' sets, so the result does not depend on who met a record first; each record has the same
-/// probability of being kept.
+/// probability of being kept. Records are ordered when they are read: not even const members are thread-safe.
 class ChosenBlock {
   public:
     /// `key` of the hash: another one chooses other records.
-    ChosenBlock(const BlockShape& shape, std::uint64_t key) : shape_(shape), key_(key) {}
+    ChosenBlock(const BlockShape& shape, std::uint64_t key);
 
     const BlockShape& shape() const { return shape_; }
     std::size_t capacity() const { return shape_.rows; }
 
-    /// Offers a record. `name` is its own: of a path vertex, its pixel, sample and number. Throws RunError for a record
-    /// with another number of words.
+    /// Offers a record. Its `name` is unique in the pass: of a path vertex, made of pixel, sample and number. Throws
+    /// RunError for another number of words.
     void offer(std::uint64_t name, std::span<const std::uint32_t> words);
 
     /// Number of kept records; they are ordered by hash.
@@ -36,8 +36,8 @@ class ChosenBlock {
     void add(const ChosenBlock& other);
 
     void write(ByteWriter& out) const;
-    /// Reads what write() wrote, without adding it. Throws FormatError if it does not fit, or has a record that is
-    /// there already.
+    /// Reads what write() wrote, without adding it. Throws FormatError if it does not fit, or has a record that is kept
+    /// already.
     void check(ByteReader& in) const;
     /// Adds what check() accepted. Returns the number of records.
     std::uint64_t merge(ByteReader& in);

@@ -20,6 +20,7 @@ concept DeclaredSums = std::default_initializable<S> && requires(S& sums, const 
 /// Adds sums to their block.
 template <DeclaredSums S>
 void put_sums(const S& sums, SumBlock& block) {
+    static_assert(S::kBlock.kind == BlockKind::sums);
     if constexpr (S::kBlock.rows == kGrowingRows) block.grow(sums.size());
     std::size_t index = 0;
     S::each(sums, [&](std::uint64_t sum) { block.add(index++, sum); });

@@ -16,14 +16,15 @@ class Evidence {
     /// `owners`: empty blocks of each owner.
     Evidence(std::uint32_t pass, std::vector<Blocks> owners) : pass_(pass), owners_(std::move(owners)) {}
 
-    const Blocks& of(std::size_t owner) const { return owners_[owner]; }
-    /// Blocks of an owner, which leaves none behind.
-    Blocks take(std::size_t owner) { return std::move(owners_[owner]); }
+    const Blocks& of(std::size_t owner) const { return owners_.at(owner); }
+    /// Moves out the blocks of an owner; once.
+    Blocks take(std::size_t owner) { return std::move(owners_.at(owner)); }
 
     Bytes encode() const;
     /// Adds an encoded part. Everything is checked first: a part counts as a whole or throws FormatError. Returns by
     /// owner the number of entries of its first block of sums.
-    std::vector<std::uint64_t> merge_encoded(std::span<const std::uint8_t> part);
+    std::vector<std::uint64_t> merge_encoded(std::span<const std::uint8_t> bytes,
+                                             EvidencePart part = EvidencePart::message);
 
     bool operator==(const Evidence&) const = default;
 
@@ -37,6 +38,7 @@ class Evidence {
 Bytes encode_evidence(std::uint32_t pass, std::span<const Blocks* const> owners);
 /// As Evidence::merge_encoded().
 std::vector<std::uint64_t> merge_evidence(std::uint32_t pass, std::span<Blocks* const> owners,
-                                          std::span<const std::uint8_t> part);
+                                          std::span<const std::uint8_t> bytes,
+                                          EvidencePart part = EvidencePart::message);
 
 }  // namespace treefarm

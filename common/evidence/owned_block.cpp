@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/evidence/owned_block.h"
 
+#include <algorithm>
 #include <string>
 
 namespace treefarm {
 
 void OwnedBlock::set(std::size_t row, std::span<const std::uint64_t> words) {
-    if (row >= shape_.rows || words.size() != shape_.columns || rows_.contains(row))
-        throw RunError("a row of " + std::string(shape_.name) + " that is not the unit's own");
+    const bool fits = row < shape_.rows && words.size() == shape_.columns && !rows_.contains(row) &&
+                      std::all_of(words.begin(), words.end(), [&](std::uint64_t word) { return word <= shape_.most; });
+    if (!fits) throw RunError("a row of " + std::string(shape_.name) + " that is not the unit's own");
     rows_[row].assign(words.begin(), words.end());
 }
 

@@ -10,14 +10,15 @@
 
 namespace treefarm {
 
-/// Block of rows of words, such as a Markov chain's weight, each written once by the unit that owns it.
+/// Block of rows of words, such as a Markov chain's weight, each written once by the unit that owns it. Whoever
+/// declares it checks that the rows of a message are those of its units.
 class OwnedBlock {
   public:
     explicit OwnedBlock(const BlockShape& shape) : shape_(shape) {}
 
     const BlockShape& shape() const { return shape_; }
 
-    /// Sets a row. Throws RunError if it is set already, out of range, or of another size.
+    /// Sets a row. Throws RunError if it is set already, out of range, of another size, or has too large a word.
     void set(std::size_t row, std::span<const std::uint64_t> words);
     /// Words of a row; empty if it is not set.
     std::span<const std::uint64_t> row(std::size_t row) const;

@@ -114,9 +114,9 @@ typename StatisticOf<G>::Shape shape_of(const Model& model, bool with_mixture) {
 
 }  // namespace
 
-Blocks AnyModel::blocks(bool with_mixture) const {
+Blocks AnyModel::blocks(std::uint32_t pass, bool with_mixture) const {
     return visit([&]<class G>(const auto& model) {
-        return typename StatisticOf<G>::Sums(model.pass, shape_of<G>(model, with_mixture)).take_blocks();
+        return typename StatisticOf<G>::Sums(pass, shape_of<G>(model, with_mixture)).take_blocks();
     });
 }
 
@@ -185,11 +185,12 @@ Result with_accumulator(Accumulators& accumulators, Use use) {
 }  // namespace
 
 void AnyAccumulator::commit(const AnyLog& log) {
-    Guides::find([&]<class G>() {
+    const bool found = Guides::find([&]<class G>() {
         auto* const accumulator = std::get_if<1 + static_cast<std::size_t>(kind_of<G>())>(&accumulator_);
         if (accumulator) accumulator->commit(log.of<G>());
         return accumulator != nullptr;
     });
+    if (!found) throw RunError("no guide's records are added");
 }
 
 Blocks AnyAccumulator::take() {

@@ -26,10 +26,11 @@ using GuideOf = typename GuideOfPart<std::remove_cvref_t<Part>, Guides>::type;
 template <class G>
 constexpr GuideKind kind_of() {
     int index = -1;
-    Guides::find([&]<class Other>() {
+    const bool found = Guides::find([&]<class Other>() {
         ++index;
         return std::is_same_v<G, Other>;
     });
+    if (!found) throw RunError("the program has no such guide");
     return static_cast<GuideKind>(index);
 }
 
@@ -74,8 +75,9 @@ class AnyModel {
     SamplerCost cost() const;
     bool grows() const;
 
-    /// Empty blocks of what a pass over the model records. `with_mixture`: also for learning mixtures.
-    Blocks blocks(bool with_mixture) const;
+    /// Empty blocks of what the pass with this number over the model records. `with_mixture`: also for learning
+    /// mixtures.
+    Blocks blocks(std::uint32_t pass, bool with_mixture) const;
     /// Limits that were reached, of blocks of a pass over the model.
     UpdateCaps caps(const Blocks& blocks) const;
 

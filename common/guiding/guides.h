@@ -18,7 +18,7 @@ namespace treefarm {
 template <class S>
 concept Statistic = requires(S& statistic, typename S::Log& log, const typename S::Log& filled, Blocks blocks,
                              typename S::Sums sums, const typename S::Shape& shape) {
-    log.begin(1u);
+    log.begin(1u, 0u);
     /// Thread-safe.
     statistic.commit(filled);
     /// The sums, which start again from zero; cleared blocks may come back for reuse.

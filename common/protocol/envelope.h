@@ -9,7 +9,7 @@
 namespace treefarm {
 
 /// Version of the protocol, raised whenever a message changes its form; peers of another version are refused.
-inline constexpr std::uint32_t kProtocolVersion = 16;
+inline constexpr std::uint32_t kProtocolVersion = 17;
 
 /// Kind of a message. The numbers are on the wire: append only (docs/design/protocol.md).
 enum class Kind : std::uint8_t {
@@ -21,7 +21,7 @@ enum class Kind : std::uint8_t {
     pass_begin,  ///< coordinator: the next pass and the tree that guides it
     want,        ///< worker: asks for more units
     work,        ///< coordinator: units to trace
-    result,      ///< worker: pixels and tree update of finished units
+    result,      ///< worker: pixels and evidence of finished units
     heartbeat,   ///< both: still alive
     failure,     ///< worker: cannot continue, with the reason
     rejoin,      ///< coordinator: the worker was considered lost and must start anew

@@ -151,7 +151,7 @@ void Collector::restore(const PartialPass& partial) {
     if (plan_.layers.estimates) film_.restore(partial.done, partial.film);
     aovs_.restore(partial.done, partial.aovs);
     if (!partial.splats.empty()) splats_.merge_encoded(partial.splats);
-    evidence_.merge_encoded(partial.evidence);
+    evidence_.merge_encoded(partial.evidence, EvidencePart::total);
     done_ = partial.done;
     earlier_ = partial.stats;
     update_bytes_ = partial.update_bytes;

@@ -53,10 +53,8 @@ int first_vertices(const Bytes& evidence) {
         }
     };
     next();  // pass
-    next();  // saturated
     for (std::size_t decision = 0; decision < std::tuple_size_v<decltype(Decisions::Evidence::all)>; ++decision)
         skip_block();
-    next();
     skip_block();  // cells
     next();
     next();
@@ -146,7 +144,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadResult{"busy for longer than has passed", [](Result& r) { r.stats.busy_seconds = 1e9; }},
         BadResult{"more seconds of a phase than have passed", [](Result& r) { r.stats.phase_seconds[1] = 1e6; }},
         BadResult{"evidence of another pass", [](Result& r) { change_varint(r.evidence, 0); }},
-        BadResult{"more saturated sums than there are", [](Result& r) { change_varint(r.evidence, 1); }},
+        BadResult{"evidence with more rows than it has", [](Result& r) { change_varint(r.evidence, 1); }},
         BadResult{"evidence that is cut short", [](Result& r) { r.evidence.pop_back(); }},
         BadResult{"more records of a region than anybody makes",
                   [](Result& r) { change_varint(r.evidence, first_vertices(r.evidence)); }},

@@ -3,6 +3,9 @@
 
 #include <limits>
 
+#include "common/decide/decisions.h"
+#include "common/evidence/evidence.h"
+
 namespace treefarm::fuzz {
 
 std::uint64_t Script::number() {
@@ -86,6 +89,11 @@ Result any_result(Script& script, const Known& known) {
             half[h] = {n[h], Rgb64(any_value(script), any_value(script), 0), Rgb64(any_value(script), 0, 0)};
         if (!script.one_in(6)) unit.pixels.assign(unit.unit.pixel_count(), PixelEstimate{{half[0], half[1]}});
         result.units.push_back(std::move(unit));
+    }
+    if (script.one_in(2)) {
+        const Blocks decided = Decisions::blocks();
+        const Blocks* const owners[] = {&decided};
+        result.evidence = encode_evidence(likely(script, known.pass), owners);
     }
     for (std::uint32_t length = script.below(40); length > 0; --length)
         result.evidence.push_back(script.byte());

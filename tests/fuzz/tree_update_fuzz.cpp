@@ -41,7 +41,7 @@ void merge(std::span<const std::uint8_t> bytes) {
 /// Blocks of each kind, into which something was merged before.
 Evidence some_evidence(std::uint32_t first) {
     constexpr std::array<BlockShape, 5> kShapes = {{{"sums", "", BlockKind::sums, 9, 2, 1u << 20},
-                                                    {"signed", "", BlockKind::signed_sums, 9, 2, kMostSigned},
+                                                    {"signed", "", BlockKind::signed_sums, 9, 2, 1u << 30},
                                                     {"growing", "", BlockKind::sums, kGrowingRows, 2},
                                                     {"chosen", "", BlockKind::chosen, 4, 2},
                                                     {"owned", "", BlockKind::owned, 50, 2}}};

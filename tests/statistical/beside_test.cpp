@@ -210,11 +210,26 @@ TEST(BesideMixture, EachLearnsFromItsOwnCells) {
     EXPECT_GT(next.beside().pdf(lobe, kLamp), 2 * next.beside().pdf(lobe, -kLamp));
 }
 
+/// Records of vertices, and of whole paths.
+struct PathLog : RecordLog {
+    std::vector<std::pair<PathKey, Rgb>> paths;
+};
+
+/// A guide's walk that also records whole paths.
+template <class Walk>
+struct PathTeachingWalk : Walk {
+    using Log = PathLog;
+
+    static void teach_path(PathLog& log, const PathKey& key, const Rgb& radiance) {
+        log.paths.emplace_back(key, radiance);
+    }
+};
+
 /// Renders passes of `spp` samples, of which each but the first is guided by what was learned in those before. Mean and
 /// variance of the pixels are the last pass's.
 template <class G, class Surface>
 test::Rendered render_beside(const Scene& scene, const Job& job, std::span<const std::uint32_t> passes) {
-    using Walk = WalkOf<typename G::Sampler>;
+    using Walk = PathTeachingWalk<WalkOf<typename G::Sampler>>;
     const TraceScene trace(scene, resolve(job, scene));
     const Resolved resolved = test::resolved(job, trace);
     FirstModel settings;
@@ -231,8 +246,9 @@ test::Rendered render_beside(const Scene& scene, const Job& job, std::span<const
         pass.spp = spp;
         pass.guided = pass.record = true;
         pass.next_event = job.integrator.next_event == NextEvent::always;
-        RecordLog log;
+        PathLog log;
         log.begin(guide.distribution_count());
+        Rgb64 carried(0.0);
         UnitStats stats;
         using Kernel = PathKernel<Walk, Surface, true, true>;
         const auto kernel =
@@ -257,7 +273,13 @@ test::Rendered render_beside(const Scene& scene, const Job& job, std::span<const
                 const std::size_t at = std::size_t(y) * std::size_t(scene.film.width) + std::size_t(x);
                 image.mean.pixels[at] = Rgb(mean);
                 image.variance.pixels[at] = Rgb((squares / double(spp) - mean * mean) / double(spp - 1));
+                carried += sum;
             }
+        Rgb64 taught(0.0);
+        for (const auto& [key, radiance] : log.paths)
+            taught += Rgb64(radiance);
+        EXPECT_GE(log.paths.size(), scene.film.pixel_count() * spp);
+        EXPECT_NEAR(luminance(taught) / luminance(carried), 1.0, 1e-3) << "each path's radiance is recorded once";
         first_sample += spp;
         CellAccumulator<typename G::Sampler> accumulator(model.pass, guide, DirectionalFilter::box, true);
         accumulator.commit(log.records, log.counts, log.caps);

@@ -374,7 +374,7 @@ TYPED_TEST(GuideLaws, FiguresAreTheModels) {
         if constexpr (TestFixture::kListed) {
             const AnyModel any(model);
             const auto counted = CellAccumulator<typename TypeParam::Sampler>(0, sampler).take();
-            EXPECT_EQ(any.blocks(false).sums(0).shape(), counted.blocks().sums(0).shape()) << name;
+            EXPECT_EQ(any.blocks(0, false).sums(0).shape(), counted.blocks().sums(0).shape()) << name;
             EXPECT_EQ(any.cells_by_region().size(), figures.regions) << name;
             const std::vector<float> map = any.density_map(region, 4);
             double sum = 0;

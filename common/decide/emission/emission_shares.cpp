@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
 
 #include "common/math/saturating.h"
 
@@ -40,11 +39,13 @@ std::vector<float> emission_emphasis(const EmissionSums& sums) {
 std::size_t emitters_of_half(const EmissionSums& sums) {
     std::vector<std::uint64_t> paths = sums.paths;
     std::sort(paths.begin(), paths.end(), std::greater<>());
-    const std::uint64_t all = std::accumulate(paths.begin(), paths.end(), std::uint64_t{0});
+    std::uint64_t all = 0;
+    for (const std::uint64_t count : paths)
+        add_saturating(all, count);
     std::uint64_t seen = 0;
     std::size_t count = 0;
     while (count < paths.size() && seen < all - all / 2)
-        seen += paths[count++];
+        add_saturating(seen, paths[count++]);
     return count;
 }
 

@@ -100,7 +100,6 @@ class CellAccumulator {
     void add_block(std::span<const Record> records, UpdateCaps& met);
     void add_boxes(std::span<const Record> records, const BlockCells& cells, UpdateCaps& met);
     void add_reflected(const Record& record, UpdateCaps& met);
-    void add_to_cell(std::uint32_t cell, std::uint64_t quanta, UpdateCaps& met);
     int exponent(const Record& record) const { return guide_.quantum_exponent(record.distribution); }
 
     SumsShape shape() const {
@@ -155,7 +154,7 @@ void CellAccumulator<Sampler>::add_block(std::span<const Record> records, Update
         add_boxes(records, cells, met);
     else
         for (std::uint32_t i = 0; i < records.size(); ++i)
-            add_to_cell(cells[i], counted(records[i].value, exponent(records[i]), records[i].rounding, met), met);
+            sums_.add_quanta(cells[i], counted(records[i].value, exponent(records[i]), records[i].rounding, met));
     for (const Record& record : records)
         add_reflected(record, met);
 }
@@ -168,7 +167,7 @@ void CellAccumulator<Sampler>::add_boxes(std::span<const Record> records, const 
     met.capped_records += boxes.cut(static_cast<std::uint32_t>(records.size()));
     Overlaps others;
     for (std::uint32_t i = 0; i < records.size(); ++i) {
-        add_to_cell(cells[i], boxes.quanta(0, i), met);
+        sums_.add_quanta(cells[i], boxes.quanta(0, i));
         for (std::uint32_t part = 1; part < BoxBlock::kParts; ++part) {
             others.distribution[others.count] = records[i].distribution;
             others.code[others.count] = boxes.part_code(part, i);
@@ -180,7 +179,7 @@ void CellAccumulator<Sampler>::add_boxes(std::span<const Record> records, const 
         others.count, [&](std::uint32_t i) { return others.distribution[i]; },
         [&](std::uint32_t i) { return others.code[i]; }, others.cell);
     for (std::uint32_t i = 0; i < others.count; ++i)
-        add_to_cell(others.cell[i], others.quanta[i], met);
+        sums_.add_quanta(others.cell[i], others.quanta[i]);
 }
 
 /// Adds the contribution of a record to the statistics of mixture or next event.
@@ -188,16 +187,11 @@ template <class Sampler>
 void CellAccumulator<Sampler>::add_reflected(const Record& record, UpdateCaps& met) {
     if (record.bin >= kLightBin) {
         const std::uint64_t units = counted(record.reflected, 0, record.rounding, met);
-        if (units != 0 && !sums_.add_light(record.distribution, record.bin - kLightBin, units)) ++met.saturated_cells;
+        sums_.add_light(record.distribution, record.bin - kLightBin, units);
     } else if (with_mixture_ && record.reflected > 0.0f) {
         const std::uint64_t quanta = counted(record.reflected, exponent(record), scrambled(record.rounding, 0), met);
-        if (quanta != 0 && !sums_.add_mixture(record.distribution, record.bin, quanta)) ++met.saturated_cells;
+        if (quanta != 0) sums_.add_mixture(record.distribution, record.bin, quanta);
     }
-}
-
-template <class Sampler>
-void CellAccumulator<Sampler>::add_to_cell(std::uint32_t cell, std::uint64_t quanta, UpdateCaps& met) {
-    if (!sums_.add_quanta(cell, quanta)) ++met.saturated_cells;
 }
 
 template <class Sampler>

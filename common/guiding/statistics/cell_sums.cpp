@@ -32,16 +32,23 @@ std::vector<BlockShape> cell_blocks(const SumsShape& shape) {
         {"clusters of emitters", "2^-16 of the mean", kKind, rows(shape.with_lights, shape.regions), kLightClusters},
         {"visits", "records", kKind, rows(shape.with_visits, shape.cells), 1, kMostClaim},
         {"direct light", "next_event_unit()", kKind, rows(shape.with_next_event, shape.regions), kNextEventSums},
-        {"caps", "contributions", kKind, 1, 3, kMostClaim}};
+        {"caps", "contributions", kKind, 1, 2, kMostClaim}};
+}
+
+CellSums::CellSums(std::uint32_t pass, const SumsShape& shape, Blocks blocks)
+    : pass_(pass), shape_(shape), blocks_(std::move(blocks)) {
+    const std::vector<BlockShape> declared = cell_blocks(shape);
+    for (std::size_t i = 0; i < declared.size(); ++i)
+        if (blocks_.sums(i).shape() != declared[i]) throw RunError("the sums to learn from belong to another model");
 }
 
 UpdateCaps CellSums::caps_of(const Blocks& blocks) {
     const std::span<const std::uint64_t> counts = blocks.sums(kCaps).row(0);
-    return {counts[0], counts[1] + blocks.saturated(), counts[2]};
+    return {counts[0], blocks.saturated(), counts[1]};
 }
 
 void CellSums::add_caps(const UpdateCaps& caps) {
-    const std::uint64_t counts[] = {caps.capped_records, caps.saturated_cells, caps.outside_positions};
+    const std::uint64_t counts[] = {caps.capped_records, caps.outside_positions};
     for (std::size_t i = 0; i < std::size(counts); ++i)
         blocks_.sums(kCaps).add(i, counts[i]);
 }

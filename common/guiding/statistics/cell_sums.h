@@ -88,8 +88,7 @@ class CellSums {
     CellSums() = default;
     CellSums(std::uint32_t pass, const SumsShape& shape) : CellSums(pass, shape, Blocks(cell_blocks(shape), pass)) {}
     /// Sums in blocks of this shape.
-    CellSums(std::uint32_t pass, const SumsShape& shape, Blocks blocks)
-        : pass_(pass), shape_(shape), blocks_(std::move(blocks)) {}
+    CellSums(std::uint32_t pass, const SumsShape& shape, Blocks blocks);
     CellSums(std::uint32_t pass, std::uint32_t regions, std::uint32_t cells, bool with_mixture = false)
         : CellSums(pass, SumsShape(regions, cells, with_mixture)) {}
 
@@ -120,23 +119,22 @@ class CellSums {
     static UpdateCaps caps_of(const Blocks& blocks);
 
     void add_count(std::uint32_t distribution, std::uint64_t count) { blocks_.sums(kCounts).add(distribution, count); }
-    /// Adds to a cell. False if the sum exceeds 2^64 - 1 and stays there (the caller counts it).
+    /// Adds to a cell. False if the sum exceeds 2^64 - 1, where it stays.
     bool add_quanta(std::uint32_t cell, std::uint64_t quanta) { return blocks_.sums(kCells).add(cell, quanta); }
     void prefetch_cell(std::uint32_t cell) const { blocks_.sums(kCells).prefetch(cell); }
     void prefetch_mixture(std::uint32_t distribution) const {
         blocks_.sums(kMixture).prefetch(shape_.mixture_begin(distribution));
     }
     void add_visit(std::uint32_t cell) { blocks_.sums(kVisits).add(cell, 1); }
-    bool add_light(std::uint32_t region, int cluster, std::uint64_t quanta) {
-        return blocks_.sums(kLights).add(std::size_t{region} * kLightClusters + static_cast<std::size_t>(cluster),
-                                         quanta);
+    void add_light(std::uint32_t region, int cluster, std::uint64_t quanta) {
+        blocks_.sums(kLights).add(std::size_t{region} * kLightClusters + static_cast<std::size_t>(cluster), quanta);
     }
     void add_next_event(std::uint32_t region, const NextEventSums& sums) {
         for (std::size_t i = 0; i < kNextEventSums; ++i)
             blocks_.sums(kNextEvent).add(std::size_t{region} * kNextEventSums + i, sums[i]);
     }
-    bool add_mixture(std::uint32_t distribution, std::uint8_t bin, std::uint64_t quanta) {
-        return blocks_.sums(kMixture).add(shape_.mixture_begin(distribution) + bin, quanta);
+    void add_mixture(std::uint32_t distribution, std::uint8_t bin, std::uint64_t quanta) {
+        blocks_.sums(kMixture).add(shape_.mixture_begin(distribution) + bin, quanta);
     }
     void add_caps(const UpdateCaps& caps);
     void add(const CellSums& other);

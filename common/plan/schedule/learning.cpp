@@ -70,7 +70,7 @@ RefineSettings refine_settings(const Resolved& job, const PassPlan& pass, const 
 
 Evidence no_evidence(const PassPlan& pass, const AnyModel& model) {
     std::vector<Blocks> owners{Decisions::blocks()};
-    if (pass.record) owners.push_back(model.blocks(pass.learn_mixture));
+    if (pass.record) owners.push_back(model.blocks(pass.index, pass.learn_mixture));
     return {pass.index, std::move(owners)};
 }
 

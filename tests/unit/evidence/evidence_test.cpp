@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t kPass = 5;
 constexpr std::array<BlockShape, 5> kShapes = {{{"energy", "quanta", BlockKind::sums, 40, 2, 1u << 30},
-                                                {"moments", "quanta", BlockKind::signed_sums, 20, 3, kMostSigned},
+                                                {"moments", "quanta", BlockKind::signed_sums, 20, 3, 1u << 30},
                                                 {"emitters", "paths", BlockKind::sums, kGrowingRows, 2},
                                                 {"photons", "", BlockKind::chosen, 16, 2},
                                                 {"chains", "weight", BlockKind::owned, 500, 1, 1u << 30}}};
@@ -147,6 +147,9 @@ TEST(Evidence, WhatDoesNotFitIsRefusedByName) {
     const Blocks none = no_blocks();
     EXPECT_EQ(why(encoded(none), none), "");
     EXPECT_EQ(why(encode_evidence(6, {}), none), "evidence of pass 6 instead of 5");
+    Bytes longer = encoded(none);
+    longer.push_back(0);
+    EXPECT_NE(why(longer, none), "");
     const Blocks large = taught([](Blocks& b) { b.sums(kEnergy).add(0, (1u << 30) + 1); });
     EXPECT_EQ(why(encoded(large), none), "evidence with an entry that is too large in \"energy\"");
     const Blocks low = taught([](Blocks& b) { b.sums(kMoments).add_signed(0, -(std::int64_t{1} << 50)); });
@@ -172,10 +175,23 @@ TEST(Evidence, SumsStayAtTheLargestNumberAndAreCounted) {
     for (int k = 0; k < 3; ++k)
         merge(sum, encoded(part));
     EXPECT_EQ(sum.sums(0).values()[0], ~std::uint64_t{0});
-    EXPECT_EQ(sum.saturated(), 2u);
+    EXPECT_EQ(sum.saturated(), 1u);
     Blocks again(kOne);
     merge(again, encoded(sum));
     EXPECT_EQ(again, sum);
+}
+
+/// A total may be larger than what a message may have.
+TEST(Evidence, LimitsOfMessagesAreNotThoseOfTotals) {
+    constexpr std::array<BlockShape, 1> kOne = {{{"vertices", "vertices", BlockKind::sums, 1, 1, 100}}};
+    Blocks part(kOne), sum(kOne), restored(kOne);
+    part.sums(0).add(0, 100);
+    for (int k = 0; k < 2; ++k)
+        merge(sum, encoded(part));
+    Blocks* const owners[] = {&restored};
+    EXPECT_THROW(merge_evidence(kPass, owners, encoded(sum)), FormatError);
+    merge_evidence(kPass, owners, encoded(sum), EvidencePart::total);
+    EXPECT_EQ(restored, sum);
 }
 
 /// Each record is kept with the same probability, which the block knows.

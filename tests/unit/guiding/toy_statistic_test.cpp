@@ -46,7 +46,7 @@ class SoftStatistic {
         static UpdateCaps caps_of(const Blocks& blocks) { return {0, blocks.saturated(), 0}; }
 
         std::uint64_t weight(std::size_t lobe) const { return blocks_.sums(0).values()[lobe]; }
-        std::int64_t moment(std::size_t lobe, int axis) const {
+        double moment(std::size_t lobe, int axis) const {
             return blocks_.sums(1).signed_value(2 * lobe + static_cast<std::size_t>(axis));
         }
         void add(std::size_t lobe, std::uint64_t quanta, std::int64_t x, std::int64_t y) {
@@ -57,8 +57,8 @@ class SoftStatistic {
 
       private:
         static std::array<BlockShape, 2> shapes(Shape lobes) {
-            return {{{"lobes", "quanta", BlockKind::sums, lobes},
-                     {"moments", "quanta", BlockKind::signed_sums, lobes, 2, kMostSigned}}};
+            return {
+                {{"lobes", "quanta", BlockKind::sums, lobes}, {"moments", "quanta", BlockKind::signed_sums, lobes, 2}}};
         }
 
         Blocks blocks_;
@@ -103,9 +103,9 @@ Lobes learn(const SoftStatistic::Sums& sums, std::size_t lobes) {
         all += static_cast<double>(sums.weight(lobe));
     Lobes learned;
     for (std::size_t lobe = 0; lobe < lobes; ++lobe) {
-        const auto moment = [&](int axis) { return static_cast<double>(sums.moment(lobe, axis)); };
         learned.weight.push_back(static_cast<float>(static_cast<double>(sums.weight(lobe)) / all));
-        learned.angle.push_back(static_cast<float>(std::atan2(moment(1), moment(0)) / (2.0 * std::numbers::pi)));
+        learned.angle.push_back(
+            static_cast<float>(std::atan2(sums.moment(lobe, 1), sums.moment(lobe, 0)) / (2.0 * std::numbers::pi)));
     }
     return learned;
 }

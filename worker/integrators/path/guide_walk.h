@@ -18,7 +18,8 @@ namespace treefarm {
 /// In the walk's order: a path's region is found, and prefetch() called; localise(), for guides that depend on more
 /// than the region, once the surface is known; LightBatch holds next event's directions, for pdf(); ScatterBatch draws
 /// the path's own direction; target(), moved(), direction() and bins() describe what a vertex teaches, radiance() is
-/// the guide's present estimate for the direction, and teach() writes the records.
+/// the guide's present estimate for the direction, and teach() writes the records. A walk may also have
+/// teach_path(log, key, radiance), for records of whole paths: each path, or copy of one, and what it carried.
 template <class G>
 concept GuideWalk = std::derived_from<typename G::Sampler, RegionSampler> &&
     requires(const typename G::Sampler& guide, typename G::Guidance guidance, typename G::Scatter scatter,

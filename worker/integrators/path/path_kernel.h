@@ -208,8 +208,13 @@ class PathKernel {
     void commit([[maybe_unused]] std::span<const std::uint8_t> slots) {
         if constexpr (kRecord) {
             walk_.clock().start();
-            for (const std::uint8_t slot : slots)
-                if (is_radiance(walk_[slot].radiance)) stats_.records += walk_.recorder(slot).commit(*log_);
+            for (const std::uint8_t slot : slots) {
+                const auto& path = walk_[slot];
+                if (!is_radiance(path.radiance)) continue;
+                stats_.records += walk_.recorder(slot).commit(*log_);
+                if constexpr (requires { G::teach_path(*log_, path.key, path.radiance); })
+                    G::teach_path(*log_, path.key, path.radiance);
+            }
             walk_.clock().lap(TracePhase::record);
         }
     }
