@@ -52,9 +52,11 @@ TEST(Sums, CapsAreMetAndCounted) {
     EXPECT_EQ(sums.cells()[0], std::uint64_t(-1));
     CellSums other(0, 1, 256);
     other.add_quanta(0, 12);
+    other.add_quanta(1, std::uint64_t{1} << 63);
     sums.add(other);
     sums.merge_encoded(other.encode());
     EXPECT_EQ(sums.cells()[0], std::uint64_t(-1));
+    EXPECT_EQ(sums.cells()[1], std::uint64_t(-1));
     EXPECT_EQ(sums.caps().saturated_cells, 2u);
     test::figure("saturated cells counted, of 2", static_cast<double>(sums.caps().saturated_cells));
 }
