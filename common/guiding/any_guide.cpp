@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "common/guiding/regions/cell_shape.h"
 #include "common/math/direction_map.h"
 
 namespace treefarm {
@@ -98,18 +99,10 @@ namespace {
 /// Shape of the sums of a pass over a model of guide `G`.
 template <class G, class Model>
 typename StatisticOf<G>::Shape shape_of(const Model& model, bool with_mixture) {
-    if constexpr (requires { typename G::Statistic; }) {
+    if constexpr (requires { typename G::Statistic; })
         return G::Statistic::shape(model, with_mixture);
-    } else {
-        const ModelFigures size = G::figures(model);
-        return {static_cast<std::uint32_t>(size.regions),
-                static_cast<std::uint32_t>(size.cells),
-                with_mixture,
-                static_cast<std::uint32_t>(size.views),
-                model.learns_lights(),
-                counts_visits<typename G::Sampler>(),
-                model.decides_next_event()};
-    }
+    else
+        return cell_shape<G>(model, with_mixture);
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every guide has to keep: the same tests over the closed set of common/guiding/guides.h and over guides beside
-// others, on trained and on hostile models. That renders by it are right is in guided_test, furnace_test and
-// mpi/same_bits_test.
+// Laws of all guides: the same tests over the closed set of common/guiding/guides.h and over guides beside others, on
+// trained and on hostile models. Renders by guides are tested in guided_test, furnace_test and mpi/same_bits_test.
 #include <gtest/gtest.h>
 
 #include <algorithm>

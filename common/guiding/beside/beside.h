@@ -2,10 +2,9 @@
 #pragma once
 
 #include "common/guiding/beside/sums_part.h"
-#include "common/guiding/regions/first_model.h"
+#include "common/guiding/regions/cell_shape.h"
 #include "common/guiding/regions/refinement.h"
 #include "common/guiding/regions/region_sampler.h"
-#include "common/guiding/statistics/cell_accumulator.h"
 
 namespace treefarm {
 
@@ -82,7 +81,7 @@ class BesideLearner {
 
     Model learn(const Model& model, const CellSums& sums, const RefineSettings& settings, bool learn_mixture,
                 RefineReport& report) {
-        const SumsShape of_a = shape<A>(model, learn_mixture), of_b = shape<B>(model.beside, learn_mixture);
+        const SumsShape of_a = cell_shape<A>(model, learn_mixture), of_b = cell_shape<B>(model.beside, learn_mixture);
         if (sums.cells().size() != std::size_t{of_a.cells} + of_b.cells)
             throw RunError("the sums to learn from belong to another model");
         const std::uint32_t first = of_a.regions + of_a.views;
@@ -106,18 +105,6 @@ class BesideLearner {
     }
 
   private:
-    template <class G>
-    static SumsShape shape(const typename G::Model& model, bool with_mixture) {
-        const ModelFigures size = G::figures(model);
-        return {static_cast<std::uint32_t>(size.regions),
-                static_cast<std::uint32_t>(size.cells),
-                with_mixture,
-                static_cast<std::uint32_t>(size.views),
-                model.learns_lights(),
-                false,
-                model.decides_next_event()};
-    }
-
     typename A::Learner first_;
     typename B::Learner beside_;
 };
